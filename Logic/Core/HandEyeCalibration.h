@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CameraModel.h"
+#include "PointLineRegistration.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <string>
+#include <vector>
+
+namespace handeye
+{
+
+/// One eye of the camera head. A monocular camera has one, the head's `Camera` frame being its own.
+struct Eye
+{
+  CameraModel camera;
+  Eigen::Isometry3d cameraToEye = Eigen::Isometry3d::Identity();  ///< p_Eye = cameraToEye * p_Camera
+};
+
+/// One placement of the ball: where the tracker says it is, and the ray on which an eye sees it.
+struct HandEyeSample
+{
+  int frame = 0;                                         ///< index in the recording, passed through
+  int eye = 0;                                           ///< index into the eyes
+  Eigen::Vector3d tip_Marker = Eigen::Vector3d::Zero();  ///< the ball's centre from the tracker, mm
+  Eigen::Vector2d ball_Image = Eigen::Vector2d::Zero();  ///< the ball's centre in the eye's image, px
+  Eigen::Vector3d ray_Eye = Eigen::Vector3d::UnitZ();    ///< the unit ray of that pixel
+  double sigmaPx = 0;  ///< of the segmentation (one standard deviation per axis, px); 0 where it is not known
+};
+
+struct HandEyeCalibrationOptions
+{
+  PointLineOptions::Method method = PointLineOptions::Method::Global;
+  /// What the tracker (mm, at the tip) and the segmentation (px, of a sample that does not say itself) contribute to a sample's error; sets
+  /// the samples' weights.
+  double trackingSigmaMm = 0.35;
+  double segmentationSigmaPx = 0.25;
+  /// Fewer used samples than this give no calibration.
+  int minimumSamples = 6;
+  /// Look for samples that disagree with the rest and leave them out.
+  bool rejectOutliers = true;
+  /// A sample disagrees when its residual exceeds this multiple of what its expected error (or, if larger, the scatter) allows.
+  double rejectionFactor = 4.5;
+  /// Largest share of samples that may disagree.
+  double maximumRejectedShare = 0.5;
+  /// Largest scatter of the used samples in multiples of what is expected of them; more is no calibration, whatever its covariance says.
+  double maximumMisfit = 8;
+  /// Largest mean predicted projection error (px) over the working volume of a result that is called usable.
+  double maximumPredictedErrorPx = 20;
+
+  /// @throws std::invalid_argument with a sentence where a number makes no sense
+  void check() const;
+};
+
+/// How far (px) a point that the calibration projects may be from where it is seen, as the covariance predicts it.
+struct PredictedError
+{
+  double meanPx = 0;
+  double maximumPx = 0;
+  double nearestMm = 0;  ///< the working volume: the image, between these depths
+  double furthestMm = 0;
+};
+
+struct HandEyeCalibrationResult
+{
+  enum class Status
+  {
+    Ok,
+    TooFewSamples,
+    NoConsensus,    ///< more samples disagree with each other than agree
+    NotObservable,  ///< the placements leave a freedom undetermined
+    NotConverged,   ///< the iteration of `procrustes` reached its cap
+    Mirrored,       ///< every solution has the ball behind the camera
+    Ambiguous,      ///< two different solutions fit equally well
+    PoorFit,        ///< the solution does not explain its samples
+    TooUncertain    ///< the predicted error is too large to be of use
+  };
+
+  struct Sample
+  {
+    bool used = false;
+    double residualPx = 0;  ///< distance between the projected tip and the segmented ball, in its eye's image
+    double residualMm = 0;  ///< distance of the tip to its ray
+  };
+
+  Status status = Status::TooFewSamples;
+  std::string message;                                               ///< for a person, verdict first
+  Eigen::Isometry3d markerToCamera = Eigen::Isometry3d::Identity();  ///< p_Camera = markerToCamera * p_Marker; only if usable
+  /// Of (rotation vector rad, translation mm) acting from the left in the camera frame: markerToCamera -> (exp(w), v) * markerToCamera.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  std::vector<Sample> samples;  ///< one per sample given
+  int usedCount = 0;
+  double reprojectionRmsPx = 0;  ///< root mean square of the used samples' residuals; the data that were fitted, not a validation
+  double pointToLineRmsMm = 0;
+  int iterations = 0;
+  double conditionNumber = 0;
+  PredictedError predicted;
+
+  bool isUsable() const { return status == Status::Ok; }
+};
+
+/// Finds where the camera sits relative to its marker: points (the tracked ball) must lie on lines (the rays on which the eyes see it).
+///
+/// Samples that disagree are found by consensus: each set of four (a few hundred of them if there are more) is registered, and the one that
+/// most of the others agree with decides who stays. The rest is solved by the chosen method; `Global` weights each sample by
+/// 1 / (sigma_mm^2 + (sigma_px distance / f)^2), the tracker acting in mm and the segmentation in px.
+///
+/// @param eyes one camera, or two of a stereo head with a known relation
+/// @throws std::invalid_argument if a sample names an eye that is not there or holds a number that is not finite
+/// Thread-safe, deterministic.
+/// Reference: Morgan et al., Int J CARS 12:1141 (2017).
+[[nodiscard]] HandEyeCalibrationResult calibrateHandEye(
+  const std::vector<HandEyeSample>& samples, const std::vector<Eye>& eyes, const HandEyeCalibrationOptions& options = {});
+
+/// The projection error that a covariance predicts over an eye's image between two depths (mm), on a grid of 9 x 7 pixels and 5 depths.
+PredictedError predictProjectionError(
+  const Eigen::Matrix<double, 6, 6>& covariance, const Eye& eye, double nearestMm, double furthestMm);
+
+/// "ok", "too_few_samples", ...: the word that result files use.
+std::string toString(HandEyeCalibrationResult::Status status);
+
+}  // namespace handeye

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vtkSlicerHandEyeCalibrationModuleLogicExport.h"
+
+#include <vtkSmartPointer.h>
+
+class vtkPolyData;
+
+namespace handeye
+{
+
+/// A mesh made ready for vtkHandEyeLensMapper.
+struct OverlayMesh
+{
+  vtkSmartPointer<vtkPolyData> mesh;  ///< triangles only, with point normals
+  double longestEdgeMm = 0;           ///< in `mesh`; 0 for an empty one
+};
+
+/// Triangles and normals (made where they are missing), and edges no longer than `longestEdgeMm`: longer ones are divided, without
+/// cracks. Where that would need more than a million triangles, the edges are left longer, and the result says how long.
+/// The input is not changed.
+VTK_SLICER_HANDEYECALIBRATION_MODULE_LOGIC_EXPORT OverlayMesh prepareOverlayMesh(vtkPolyData* model, double longestEdgeMm);
+
+/// Triangles only, with point normals; normals of the input are kept.
+VTK_SLICER_HANDEYECALIBRATION_MODULE_LOGIC_EXPORT vtkSmartPointer<vtkPolyData> triangulatedWithNormals(vtkPolyData* model);
+
+}  // namespace handeye

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Capture.h"
+#include "HandEyeCalibration.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace handeye
+{
+
+/// One frame of a capture after the calibration: what it gave and what became of it.
+struct CalibratedFrame
+{
+  CapturedFrame captured;
+  std::string status;  ///< that of the capture, or "disagrees" for a sample that was left out
+  bool used = false;
+  double residualPx = 0;  ///< meaningful for samples
+  double residualMm = 0;
+};
+
+/// A calibration with all that belongs to it. A stereo head adds the right eye.
+struct CalibrationStepResult
+{
+  HandEyeCalibrationResult calibration;  ///< of the left (or only) eye
+  CameraModel camera;
+  std::vector<CalibratedFrame> frames;
+  ToolNames tools;
+  Eigen::Vector3d tip_Stylus = Eigen::Vector3d::Zero();
+  double ballRadiusMm = 0;
+
+  struct RightEye
+  {
+    CameraModel camera;
+    std::vector<CalibratedFrame> frames;
+    Eigen::Isometry3d markerToRightCamera = Eigen::Isometry3d::Identity();  ///< p_RightCamera = markerToRightCamera * p_Marker
+    /// Where the eyes' relation was not known: the right eye's own calibration. Otherwise both are one, `calibration` above.
+    std::optional<HandEyeCalibrationResult> calibration;
+  };
+  std::optional<RightEye> right;
+
+  bool isUsable() const { return calibration.isUsable() && (!right || !right->calibration || right->calibration->isUsable()); }
+  /// Of the first part that is not usable, otherwise of the left eye.
+  const HandEyeCalibrationResult& decisive() const;
+};
+
+/// The evaluated capture of one eye.
+struct EyeCapture
+{
+  CameraModel camera;  ///< with the image size of the capture
+  std::vector<CapturedFrame> frames;
+};
+
+/// Calibrates one camera from an evaluated capture.
+[[nodiscard]] CalibrationStepResult calibrateCapture(const EyeCapture& capture, const HandEyeCalibrationOptions& options = {});
+
+/// Calibrates a stereo head. With the eyes' relation known (p_RightCamera = leftToRight * p_LeftCamera, mm) all samples of both eyes are one
+/// registration; without, each eye is calibrated on its own.
+[[nodiscard]] CalibrationStepResult calibrateStereoCapture(const EyeCapture& left, const EyeCapture& right,
+  const std::optional<Eigen::Isometry3d>& leftToRight, const HandEyeCalibrationOptions& options = {});
+
+}  // namespace handeye

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CalibrationStep.h"
+#include "LandmarkRegistration.h"
+#include "PivotStep.h"
+#include "PointLineRegistration.h"
+#include "ValidationStep.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <vector>
+
+namespace handeye
+{
+
+/// The result files, keys as other programs rely on them (millimetres, pixels; matrices as lists of rows). Every object has `schema`
+/// (the kind of file and its version), `status` and `message`. A result that is not usable carries no transform and no tip: there is no
+/// identity to mistake for an answer.
+
+nlohmann::json stylusJson(const PivotStepResult& result);                ///< stylus.json
+nlohmann::json calibrationJson(const CalibrationStepResult& result);     ///< calibration.json
+nlohmann::json validationJson(const ValidationStepResult& result);       ///< validation.json
+nlohmann::json phantomJson(const LandmarkRegistrationResult& result);    ///< phantom.json
+nlohmann::json detectionJson(const std::vector<CapturedFrame>& frames);  ///< what `handeye detect` prints
+nlohmann::json registrationJson(const PointLineResult& result);          ///< what `handeye register` prints
+
+/// Writes a result with two spaces of indentation, atomically. @throws io::FileError
+void writeJson(const std::filesystem::path& path, const nlohmann::json& json);
+
+/// What later steps need of a stylus.json. @throws io::FileError naming the key; also where the file's status is not "ok"
+Eigen::Vector3d readStylusTip(const std::filesystem::path& path);
+
+/// What later steps need of a calibration.json.
+struct StoredCalibration
+{
+  Eigen::Isometry3d markerToCamera = Eigen::Isometry3d::Identity();
+  CameraModel camera;
+  Eigen::Vector3d tip_Stylus = Eigen::Vector3d::Zero();
+  double ballRadiusMm = 0;
+  ToolNames tools;
+};
+
+/// @throws io::FileError naming the key; also where the file's status is not "ok"
+StoredCalibration readCalibration(const std::filesystem::path& path);
+
+/// modelToPhantom of a phantom.json. @throws io::FileError naming the key; also where the file's status is not "ok"
+Eigen::Isometry3d readPhantomRegistration(const std::filesystem::path& path);
+
+}  // namespace handeye

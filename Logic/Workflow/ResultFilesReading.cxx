@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CameraFile.h"
+#include "FileError.h"
+#include "ResultFiles.h"
+#include "RigidTransform.h"
+
+#include <cmath>
+#include <fstream>
+#include <optional>
+
+namespace handeye
+{
+
+namespace
+{
+
+using nlohmann::json;
+using Path = std::filesystem::path;
+
+/// A result file of this kind that says of itself that it is usable.
+json readResult(const Path& path, const char* key)
+{
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path))
+  {
+    throw io::FileError(path, "the file cannot be opened");
+  }
+  json object;
+  try
+  {
+    object = json::parse(file);
+  }
+  catch (const json::exception& error)
+  {
+    throw io::FileError(path, std::string("this is not a JSON file: ") + error.what());
+  }
+  if (!object.is_object())
+  {
+    throw io::FileError(path, "a JSON object is expected");
+  }
+  const json status = object.value("status", json("ok"));
+  if (status != "ok")
+  {
+    const json message = object.value("message", json(""));
+    throw io::FileError(path,
+      "the file holds no usable result, its status is " + status.dump() +
+        (message.is_string() && !message.get<std::string>().empty() ? " (" + message.get<std::string>() + ")" : ""));
+  }
+  if (!object.contains(key))
+  {
+    throw io::FileError(path, std::string("the key \"") + key + "\" is missing");
+  }
+  return object;
+}
+
+double readNumber(const Path& path, const json& value, const std::string& key)
+{
+  if (!value.is_number() || !std::isfinite(value.get<double>()))
+  {
+    throw io::FileError(path, "\"" + key + "\": a finite number is expected");
+  }
+  return value.get<double>();
+}
+
+Eigen::Vector3d readVector(const Path& path, const json& object, const char* key)
+{
+  const json value = object.value(key, json());
+  if (!value.is_array() || value.size() != 3)
+  {
+    throw io::FileError(path, std::string("\"") + key + "\": three numbers are expected");
+  }
+  Eigen::Vector3d vector;
+  for (int i = 0; i < 3; ++i)
+  {
+    vector(i) = readNumber(path, value[std::size_t(i)], key);
+  }
+  return vector;
+}
+
+Eigen::Isometry3d readTransform(const Path& path, const json& object, const char* key)
+{
+  const json value = object.value(key, json());
+  Eigen::Matrix4d matrix;
+  bool isMatrix = value.is_array() && value.size() == 4;
+  for (std::size_t row = 0; isMatrix && row < 4; ++row)
+  {
+    isMatrix = value[row].is_array() && value[row].size() == 4;
+    for (std::size_t column = 0; isMatrix && column < 4; ++column)
+    {
+      matrix(Eigen::Index(row), Eigen::Index(column)) = readNumber(path, value[row][column], key);
+    }
+  }
+  const std::optional<Eigen::Isometry3d> rigid = isMatrix ? toRigid(matrix) : std::nullopt;
+  if (!rigid)
+  {
+    throw io::FileError(
+      path, std::string("\"") + key + "\": four rows of four numbers that are a rotation and a translation are expected");
+  }
+  return *rigid;
+}
+
+}  // namespace
+
+Eigen::Vector3d readStylusTip(const Path& path)
+{
+  return readVector(path, readResult(path, "tip_Stylus_Mm"), "tip_Stylus_Mm");
+}
+
+StoredCalibration readCalibration(const Path& path)
+{
+  const json object = readResult(path, "markerToCamera");
+  StoredCalibration stored{ readTransform(path, object, "markerToCamera"), io::readCameraFile(path).camera, {}, 0, {} };
+  stored.tip_Stylus = readVector(path, object, "tip_Stylus_Mm");
+  stored.ballRadiusMm = readNumber(path, object.value("ballRadiusMm", json()), "ballRadiusMm");
+  const auto name = [&](const char* key, const std::string& otherwise)
+  {
+    const json value = object.value(key, json(otherwise));
+    return value.is_string() ? value.get<std::string>() : otherwise;
+  };
+  stored.tools.stylusToTracker = name("stylusTransform", stored.tools.stylusToTracker);
+  stored.tools.markerToTracker = name("markerTransform", stored.tools.markerToTracker);
+  return stored;
+}
+
+Eigen::Isometry3d readPhantomRegistration(const Path& path)
+{
+  return readTransform(path, readResult(path, "modelToPhantom"), "modelToPhantom");
+}
+
+}  // namespace handeye

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ValidationStep.h"
+
+#include <cstdio>
+
+namespace handeye
+{
+
+namespace
+{
+
+std::string describe(const Summary& errorPx, std::size_t frameCount)
+{
+  if (errorPx.count == 0)
+  {
+    return "the ball was found and tracked in none of the " + std::to_string(frameCount) + " frames: nothing could be validated";
+  }
+  char text[200];
+  std::snprintf(text, sizeof(text), "projection error %.2f px mean, %.2f px RMS, %.2f px at most, over %d of %zu frames",
+    errorPx.mean, errorPx.rms, errorPx.maximum, errorPx.count, frameCount);
+  return text;
+}
+
+}  // namespace
+
+ValidationStepResult validateCapture(
+  const std::vector<CapturedFrame>& frames, const CameraModel& camera, const Eigen::Isometry3d& markerToCamera)
+{
+  ValidationStepResult result;
+  const HandEyeValidationResult validation = validateHandEye(toSamples(frames), camera, markerToCamera);
+  std::size_t next = 0;
+  for (const CapturedFrame& captured : frames)
+  {
+    ValidatedFrame frame{ captured, captured.status, {} };
+    if (captured.isSample())
+    {
+      frame.validated = validation.samples[next++];
+      frame.status = toString(frame.validated->status);
+    }
+    result.frames.push_back(std::move(frame));
+  }
+  result.projectionErrorPx = validation.projectionErrorPx;
+  result.message = describe(result.projectionErrorPx, frames.size());
+  return result;
+}
+
+}  // namespace handeye

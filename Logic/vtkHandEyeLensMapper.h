@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "LensWarp.h"
+#include "vtkSlicerHandEyeCalibrationModuleLogicExport.h"
+
+#include <vtkOpenGLPolyDataMapper.h>
+
+/// Draws a mesh as a distorted (raw) video shows it: bends its vertices on the graphics card as the lens bends light (see
+/// LensWarp).
+///
+/// The mapper expects view coordinates that are those of the `Camera` frame with y and z turned: the virtual camera in the origin,
+/// looking along +z, y down. What is nearer than the near plane, behind the camera, or further off the axis than the lens model can
+/// be believed is not drawn; the last is decided for every pixel, so that a large triangle cannot fold back into the picture
+/// either. Lighting uses the true positions and normals.
+///
+/// A vertex shader bends no edges: triangles must be small enough (longestEdgeMm()).
+class VTK_SLICER_HANDEYECALIBRATION_MODULE_LOGIC_EXPORT vtkHandEyeLensMapper : public vtkOpenGLPolyDataMapper
+{
+public:
+  static vtkHandEyeLensMapper* New();
+  vtkTypeMacro(vtkHandEyeLensMapper, vtkOpenGLPolyDataMapper)
+  void PrintSelf(std::ostream& os, vtkIndent indent) override;
+
+  void SetLensWarp(const handeye::LensWarp& warp);
+
+  /// Write depth, no colour: drawn first, such a mesh lets only the foremost surface of a translucent one through. Off by default.
+  vtkSetMacro(DepthOnly, bool);
+  vtkGetMacro(DepthOnly, bool);
+
+  /// How much a surface seen edge-on is darkened and made opaque, 0 (not at all, the default) to 1: draws the outlines of anatomy.
+  vtkSetClampMacro(RimStrength, double, 0.0, 1.0);
+  vtkGetMacro(RimStrength, double);
+
+  void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override;
+
+protected:
+  vtkHandEyeLensMapper() = default;
+  ~vtkHandEyeLensMapper() override = default;
+
+  using ShaderMap = std::map<vtkShader::Type, vtkShader*>;
+  void ReplaceShaderPositionVC(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor) override;
+  void ReplaceShaderClip(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor) override;
+  void ReplaceShaderLight(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor) override;
+  void SetCameraShaderParameters(vtkOpenGLHelper& cellBO, vtkRenderer* renderer, vtkActor* actor) override;
+
+private:
+  vtkHandEyeLensMapper(const vtkHandEyeLensMapper&) = delete;
+  void operator=(const vtkHandEyeLensMapper&) = delete;
+
+  handeye::LensWarp Warp;
+  bool DepthOnly = false;
+  double RimStrength = 0;
+};

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CommandOutput.h"
+#include "Commands.h"
+#include "ResultFiles.h"
+#include "ValidationReport.h"
+#include "ValidationStep.h"
+
+#include <memory>
+
+namespace handeye::cli
+{
+
+namespace
+{
+
+struct ValidateArguments
+{
+  std::string recording, calibration, report;
+  std::string stylusTransform, markerTransform;
+  CommandOutput output;
+};
+
+int runValidate(const ValidateArguments& arguments)
+{
+  const StoredCalibration stored = readCalibration(arguments.calibration);
+  const io::Recording recording = io::Recording::open(arguments.recording);
+  arguments.output.warn(recording.warnings());
+  ToolNames tools = stored.tools;
+  tools.stylusToTracker = arguments.stylusTransform.empty() ? tools.stylusToTracker : arguments.stylusTransform;
+  tools.markerToTracker = arguments.markerTransform.empty() ? tools.markerToTracker : arguments.markerTransform;
+  const CameraModel camera = cameraForRecording(stored.camera, recording);
+  const std::vector<CapturedFrame> frames = readCapture(
+    recording, tools, camera, stored.tip_Stylus, stored.ballRadiusMm, {}, arguments.output.progress("looking for the ball, frame"));
+  const ValidationStepResult step = validateCapture(frames, camera, stored.markerToCamera);
+  if (step.isUsable())
+  {
+    const Summary& error = step.projectionErrorPx;
+    arguments.output.say(format("projection error     %.2f px mean, %.2f px standard deviation, %.2f px RMS", error.mean,
+      error.standardDeviation, error.rms));
+    arguments.output.say(format("                     %.2f to %.2f px over ", error.minimum, error.maximum) +
+      std::to_string(error.count) + " of " + std::to_string(frames.size()) + " frames");
+  }
+  for (const ValidatedFrame& frame : step.frames)
+  {
+    if (frame.status != "ok")
+    {
+      arguments.output.say("left out             frame " + std::to_string(frame.captured.frame) + ": " + frame.status + " (" +
+        frame.captured.message + ")");
+    }
+  }
+  if (!arguments.report.empty())
+  {
+    writeValidationReport(arguments.report, step, recording);
+    arguments.output.say("report in            " + arguments.report + "/report.html");
+  }
+  return arguments.output.finish(validationJson(step));
+}
+
+}  // namespace
+
+void addValidateCommand(CLI::App& app, int& exitCode)
+{
+  auto arguments = std::make_shared<ValidateArguments>();
+  CLI::App* command = app.add_subcommand("validate", "Measure a calibration's projection error on a capture that was not fitted");
+  command->add_option("recording", arguments->recording, "Another capture: images and tracking")
+    ->required()
+    ->type_name("RECORDING");
+  command->add_option("--calibration", arguments->calibration, "What `handeye calibrate` wrote")
+    ->required()
+    ->type_name("calibration.json");
+  command->add_option("--report", arguments->report, "Write report.html and a picture a frame into this folder")->type_name("DIR");
+  command->add_option("--stylus-transform", arguments->stylusTransform, "Pose of the stylus, if not the calibration's")
+    ->type_name("NAME");
+  command->add_option("--marker-transform", arguments->markerTransform, "Pose of the camera's marker, if not the calibration's")
+    ->type_name("NAME");
+  arguments->output.addTo(*command);
+  command->callback([arguments, &exitCode] { exitCode = runValidate(*arguments); });
+}
+
+}  // namespace handeye::cli
