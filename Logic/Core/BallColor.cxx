@@ -4,6 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -27,7 +28,7 @@ void BallColor::check() const
 {
   const auto isShare = [](double value) { return value >= 0 && value <= 1; };
   if (!std::isfinite(hueDeg) || !(hueToleranceDeg > 0 && hueToleranceDeg < 180) || !isShare(minimumSaturation) ||
-    !isShare(minimumValue) || !isShare(minimumMedianSaturation))
+    !isShare(minimumValue) || !isShare(minimumChroma) || !isShare(minimumMedianSaturation))
   {
     throw std::invalid_argument("ball colour: a hue tolerance between 0 and 180 deg and shares between 0 and 1 are expected");
   }
@@ -74,8 +75,35 @@ cv::Mat ballColorMask(const cv::Mat& hsv, const BallColor& color)
   cv::Mat hue, isHue, isVivid;
   cv::extractChannel(hsv, hue, 0);
   cv::LUT(hue, hueTable, isHue);
+  if (color.minimumChroma > 0)
+  {
+    cv::Mat saturation, value, chroma;
+    cv::extractChannel(hsv, saturation, 1);
+    cv::extractChannel(hsv, value, 2);
+    cv::multiply(saturation, value, chroma, 1.0 / 255);
+    isHue &= chroma >= toByte(color.minimumChroma);
+  }
   cv::inRange(hsv, cv::Scalar(0, toByte(color.minimumSaturation), toByte(color.minimumValue)), cv::Scalar(255, 255, 255), isVivid);
   return isHue & isVivid;
+}
+
+std::vector<BallColor> colorLevels(const BallColor& color)
+{
+  struct Demand
+  {
+    double saturation;
+    double chroma;
+  };
+  static const Demand demands[] = { { 0.52, 0 }, { 0.66, 0 }, { 0.45, 0.35 }, { 0.6, 0.55 } };
+  std::vector<BallColor> levels = { color };
+  for (const Demand& demand : demands)
+  {
+    BallColor level = color;
+    level.minimumSaturation = std::max(color.minimumSaturation, demand.saturation);
+    level.minimumChroma = std::max(color.minimumChroma, demand.chroma);
+    levels.push_back(level);
+  }
+  return levels;
 }
 
 cv::Mat highlightMask(const cv::Mat& hsv)

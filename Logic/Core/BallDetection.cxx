@@ -37,6 +37,8 @@ constexpr double LargestSigmaOnTheWayPx = 2.5;
 /// A scatter of this much halves the trust in an outline.
 constexpr double HalfTrustSigmaPx = 0.4;
 constexpr int OutlineCorners = 90;
+/// A candidate this close to a ball that was found, as a share of its size, is that ball.
+constexpr double AlreadyKnown = 0.1;
 /// Largest share of the outline, of what is seen of it, across which the ball's colour goes on without an edge: a piece of something
 /// longer is not a ball.
 constexpr double LargestContinuedShare = 0.35;
@@ -216,26 +218,29 @@ void describe(const Eigen::Vector3d& ray, const Eigen::Matrix3d& rayCovariance, 
   result.covariance_Image = jacobian * rayCovariance * jacobian.transpose();
 }
 
-BallDetection detectExact(const cv::Mat& image, const CameraModel& camera, double ballRadiusMm, const BallDetectionOptions& options)
+/// All that is found in one image, each ball once.
+struct Findings
 {
-  BallDetection result;
-  const cv::Mat hsv = toHsv(image);
-  const cv::Mat colorMask = ballColorMask(hsv, options.color);
-  const LinearLightImage light(image);
   std::vector<Fitted> balls;
-  double partlySeen = 0;
-  for (const SphereCone& candidate : findBallCandidates(colorMask, camera, options.minimumRadiusPx))
+  double partlySeen = 0;  ///< visible share of something that is a ball but for that
+
+  bool has(const SphereCone& candidate) const
   {
-    Fitted fitted;
-    if (!refine(light, camera, candidate, fitted))
-    {
-      continue;
-    }
-    judge(hsv, colorMask, camera, options, fitted);
+    return std::any_of(balls.begin(), balls.end(),
+      [&](const Fitted& ball)
+      {
+        const SphereCone& known = ball.fit.cone;
+        const double apart = known.axis_Camera.cross(candidate.axis_Camera).norm();
+        return apart + std::abs(known.halfAngle - candidate.halfAngle) < AlreadyKnown * known.halfAngle;
+      });
+  }
+
+  void add(const Fitted& fitted)
+  {
     if (!fitted.isBall)
     {
       partlySeen = fitted.isPartOfBall ? std::max(partlySeen, fitted.visibleShare) : partlySeen;
-      continue;
+      return;
     }
     const auto same = std::find_if(balls.begin(), balls.end(), [&](const Fitted& other) { return isSameBall(fitted, other); });
     if (same == balls.end())
@@ -247,6 +252,35 @@ BallDetection detectExact(const cv::Mat& image, const CameraModel& camera, doubl
       *same = fitted;
     }
   }
+};
+
+/// Looks at every level of the colour: the ball may be one with what is around it at one level, and alone at another.
+Findings findBalls(const cv::Mat& image, const CameraModel& camera, const BallDetectionOptions& options)
+{
+  Findings findings;
+  const cv::Mat hsv = toHsv(image);
+  const LinearLightImage light(image);
+  for (const BallColor& level : colorLevels(options.color))
+  {
+    const cv::Mat colorMask = ballColorMask(hsv, level);
+    for (const SphereCone& candidate : findBallCandidates(colorMask, camera, options.minimumRadiusPx))
+    {
+      Fitted fitted;
+      if (!findings.has(candidate) && refine(light, camera, candidate, fitted))
+      {
+        judge(hsv, colorMask, camera, options, fitted);
+        findings.add(fitted);
+      }
+    }
+  }
+  std::sort(findings.balls.begin(), findings.balls.end(), [](const Fitted& a, const Fitted& b) { return a.score() > b.score(); });
+  return findings;
+}
+
+BallDetection detectExact(const cv::Mat& image, const CameraModel& camera, double ballRadiusMm, const BallDetectionOptions& options)
+{
+  BallDetection result;
+  const auto [balls, partlySeen] = findBalls(image, camera, options);
   if (balls.empty())
   {
     result.status = partlySeen > 0 ? Status::TooLittleVisible : Status::NotFound;
@@ -254,7 +288,6 @@ BallDetection detectExact(const cv::Mat& image, const CameraModel& camera, doubl
     result.message = partlySeen > 0 ? "too little of the ball's outline is visible" : "no ball is seen";
     return result;
   }
-  std::sort(balls.begin(), balls.end(), [](const Fitted& a, const Fitted& b) { return a.score() > b.score(); });
   const Fitted& best = balls.front();
   if (balls.size() > 1 && best.score() < options.distinctionFactor * balls[1].score())
   {

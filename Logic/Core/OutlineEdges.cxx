@@ -4,6 +4,8 @@
 
 #include "Statistics.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +17,10 @@ namespace
 
 constexpr double StepPx = 0.25;
 constexpr double MinimumContrast = 0.08;
+/// How much the light varies: by noise (of full light), and along its own colour by shading (of itself).
+constexpr float LightNoise = 0.02F;
+constexpr float ShadingInside = 0.1F;
+constexpr float ShadingOutside = 0.1F;
 constexpr int FewestNormals = 48;
 constexpr int MostNormals = 240;
 /// Width of the stretch inside and outside over which the light on either side is averaged.
@@ -106,6 +112,18 @@ private:
     return where * StepPx;
   }
 
+  /// The direction of colour along which inside and outside are told apart, scaled so that they are 1 apart: Fisher's discriminant for light
+  /// that varies by noise and, on either side, along its own colour by shading. A ball that darkens towards its limb keeps its colour; so
+  /// where the background differs in colour its brightness hardly counts, and where it does not, brightness is what there is.
+  static Eigen::Vector3f discriminant(const Eigen::Vector3f& inside, const Eigen::Vector3f& outside)
+  {
+    const Eigen::Matrix3f variation = LightNoise * LightNoise * Eigen::Matrix3f::Identity() +
+      ShadingInside * ShadingInside * inside * inside.transpose() + ShadingOutside * ShadingOutside * outside * outside.transpose();
+    const Eigen::Vector3f across = inside - outside;
+    const Eigen::Vector3f direction = variation.inverse() * across;
+    return direction / direction.dot(across);
+  }
+
   /// One refinement of the edge's place from the light on either side of it.
   bool locate(double& centre, double& contrast, double& blur) const
   {
@@ -117,7 +135,7 @@ private:
     {
       return false;
     }
-    const Eigen::Vector3f direction = across / across.squaredNorm();
+    const Eigen::Vector3f direction = discriminant(inside, outside);
     const int first = int(std::lround((centre - reference_) / StepPx)), last = int(std::lround((centre + reference_) / StepPx));
     double area = 0, spread = 0;
     int crossings = 0;

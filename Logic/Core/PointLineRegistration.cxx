@@ -88,7 +88,7 @@ int countInFront(const Pairs& pairs, const Eigen::Isometry3d& pointsToLines)
     { return pair.direction_Lines.dot(pointsToLines * pair.point_Points - pair.origin_Lines) > 0; }));
 }
 
-/// A cost below which all is rounding.
+/// A cost below which all is rounding: that of the quadratic form, whose terms are this large and cancel.
 double roundingCost(const Pairs& pairs)
 {
   double scale = 0;
@@ -96,7 +96,7 @@ double roundingCost(const Pairs& pairs)
   {
     scale += pair.weight * (pair.point_Points.squaredNorm() + pair.origin_Lines.squaredNorm());
   }
-  return 1e-18 * scale;
+  return 1e-15 * scale;
 }
 
 void solveGlobal(const Pairs& pairs, const PointLineOptions& options, PointLineResult& result)

@@ -31,7 +31,8 @@ public:
   Json read() const
   {
     // A fragment keeps what stands beside the root element, to be refused; UTF-8 keeps pugixml's offsets those of the text.
-    constexpr unsigned options = pugi::parse_default | pugi::parse_doctype | pugi::parse_fragment;
+    // Escapes are left alone: no number has them, and behind "&#0;" pugixml would lose the rest of a list without a word.
+    constexpr unsigned options = pugi::parse_cdata | pugi::parse_eol | pugi::parse_doctype | pugi::parse_fragment;
     pugi::xml_document document;
     const pugi::xml_parse_result result = document.load_buffer(text_.data(), text_.size(), options, pugi::encoding_utf8);
     if (!result)

@@ -9,8 +9,10 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
+#include <algorithm>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace handeye::io
@@ -57,7 +59,8 @@ public:
 
   void OnDocumentStart(const Mark& mark) override
   {
-    if (!root_.is_null())
+    const bool isStuck = mark.pos == std::exchange(start_, mark.pos);  // before what yaml-cpp neither reads nor refuses: "]"
+    if (isStuck || !root_.is_null())
     {
       fail(mark, "stands outside of the values before" + Expectation);
     }
@@ -82,6 +85,7 @@ private:
     Json& container;
     bool isBeforeKey;
     std::string key;
+    int keyStart;
   };
 
   void open(const Mark& mark, Json container)
@@ -91,7 +95,7 @@ private:
       fail(mark, "is nested more than " + std::to_string(DeepestNesting) + " levels deep");
     }
     Json& added = add(mark, std::move(container));
-    open_.push_back({ added, added.is_object(), {} });
+    open_.push_back({ added, added.is_object(), {}, 0 });
   }
 
   /// As the root, the next entry of a list, the next key of a map or its value.
@@ -106,20 +110,23 @@ private:
     {
       return level.container.emplace_back(std::move(value));
     }
-    if (level.isBeforeKey && !value.is_string())
+    if (level.isBeforeKey)
     {
-      fail(mark, "has a key that is no word" + Expectation);
-    }
-    if (level.isBeforeKey && level.container.contains(value))
-    {
-      fail(mark, "has the key " + inQuotes(value.get_ref<const std::string&>()) + ", which is there twice");
-    }
-    level.isBeforeKey = !level.isBeforeKey;
-    if (!level.isBeforeKey)
-    {
-      level.key = value.get<std::string>();
+      const auto* key = value.get_ptr<const std::string*>();
+      if (!key || level.container.contains(*key))
+      {
+        fail(mark, key ? "has the key " + inQuotes(*key) + ", which is there twice" : "has a key that is no word" + Expectation);
+      }
+      level.key = *key;
+      level.keyStart = mark.pos;
+      level.isBeforeKey = false;
       return level.container;
     }
+    if (mark.pos <= level.keyStart)  // yaml-cpp makes up a value there
+    {
+      fail(mark, "has no colon" + Expectation);
+    }
+    level.isBeforeKey = true;
     return level.container[level.key] = std::move(value);
   }
 
@@ -127,6 +134,7 @@ private:
   std::string_view text_;
   Json root_;
   std::vector<Level> open_;
+  int start_ = -1;  ///< of the document
 };
 
 /// Up to the line "---" or "..." that ends the first document with something in it.
@@ -157,7 +165,7 @@ std::string withFlowBlanks(std::string_view text)
   for (const char c : text)
   {
     result += c;
-    depth += c == '{' ? 1 : c == '}' ? -1 : 0;
+    depth = c == '{' ? depth + 1 : c == '}' ? std::max(depth - 1, 0) : depth;
     if (c == ':' && isKey && depth > 0)
     {
       result += ' ';

@@ -4,10 +4,10 @@
 #include "CameraFile.h"
 #include "CommandOutput.h"
 #include "Commands.h"
+#include "CommonOptions.h"
 #include "ResultFiles.h"
 #include "TextTables.h"
 
-#include <map>
 #include <memory>
 
 namespace handeye::cli
@@ -15,9 +15,6 @@ namespace handeye::cli
 
 namespace
 {
-
-using SegmentationMethod = BallDetectionOptions::Method;
-using SolverMethod = PointLineOptions::Method;
 
 struct CalibrateArguments
 {
@@ -124,33 +121,20 @@ void addCalibrateCommand(CLI::App& app, int& exitCode)
 {
   auto arguments = std::make_shared<CalibrateArguments>();
   CLI::App* command = app.add_subcommand("calibrate", "Find markerToCamera from a capture of the tracked ball");
-  command->add_option("recording", arguments->recording, "Capture: images and tracking")->required()->type_name("RECORDING");
+  addRecordingArgument(*command, arguments->recording, "Capture: images and tracking");
   command
     ->add_option(
       "--camera", arguments->camera, "Lens: OpenCV, ROS, SlicerPinholeCameras, VASST, scikit-surgery or calibration.json")
     ->required()
     ->type_name("CAMERA");
   command->add_option("--stylus", arguments->stylus, "What `handeye pivot` wrote")->required()->type_name("stylus.json");
-  command->add_option("--ball-radius", arguments->ballRadiusMm, "Radius of the ball, mm")
-    ->required()
-    ->check(CLI::PositiveNumber)
-    ->type_name("MM");
-  command->add_option("--segmentation", arguments->detection.method, "exact (the outline's cone) or hough (the paper's pipeline)")
-    ->transform(CLI::CheckedTransformer(
-      std::map<std::string, SegmentationMethod>{ { "exact", SegmentationMethod::Exact }, { "hough", SegmentationMethod::Hough } }))
-    ->default_str("exact");
-  command->add_option("--method", arguments->calibration.method, "global, or procrustes (the paper's iteration)")
-    ->transform(CLI::CheckedTransformer(
-      std::map<std::string, SolverMethod>{ { "global", SolverMethod::Global }, { "procrustes", SolverMethod::Procrustes } }))
-    ->default_str("global");
+  addBallRadiusOption(*command, arguments->ballRadiusMm);
+  addSegmentationOption(*command, arguments->detection.method);
+  addSolverOption(*command, arguments->calibration.method);
   command->add_flag(
     "--keep-all", arguments->keepAll, "Use all samples, also those that disagree with the rest (as the paper does)");
-  command->add_option("--stylus-transform", arguments->tools.stylusToTracker, "Pose of the stylus in the recording")
-    ->capture_default_str()
-    ->type_name("NAME");
-  command->add_option("--marker-transform", arguments->tools.markerToTracker, "Pose of the camera's marker in the recording")
-    ->capture_default_str()
-    ->type_name("NAME");
+  addTransformOption(*command, "--stylus-transform", arguments->tools.stylusToTracker, "stylus");
+  addTransformOption(*command, "--marker-transform", arguments->tools.markerToTracker, "camera's marker");
   CLI::Option* right = command->add_option("--right", arguments->rightRecording, "Capture of the right eye of a stereo rig");
   right->type_name("RECORDING");
   CLI::Option* rightCamera =

@@ -3,10 +3,10 @@
 #include "CameraFile.h"
 #include "CommandOutput.h"
 #include "Commands.h"
+#include "CommonOptions.h"
 #include "ResultFiles.h"
 
 #include <cmath>
-#include <map>
 #include <memory>
 
 namespace handeye::cli
@@ -14,8 +14,6 @@ namespace handeye::cli
 
 namespace
 {
-
-using SegmentationMethod = BallDetectionOptions::Method;
 
 struct DetectArguments
 {
@@ -52,20 +50,14 @@ void addDetectCommand(CLI::App& app, int& exitCode)
 {
   auto arguments = std::make_shared<DetectArguments>();
   CLI::App* command = app.add_subcommand("detect", "Find the ball in every frame of a recording");
-  command->add_option("recording", arguments->recording, "Recording with images")->required()->type_name("RECORDING");
+  addRecordingArgument(*command, arguments->recording, "Recording with images");
   command
     ->add_option(
       "--camera", arguments->camera, "Lens: OpenCV, ROS, SlicerPinholeCameras, VASST, scikit-surgery or calibration.json")
     ->required()
     ->type_name("CAMERA");
-  command->add_option("--ball-radius", arguments->ballRadiusMm, "Radius of the ball, mm")
-    ->required()
-    ->check(CLI::PositiveNumber)
-    ->type_name("MM");
-  command->add_option("--segmentation", arguments->detection.method, "exact (the outline's cone) or hough (the paper's pipeline)")
-    ->transform(CLI::CheckedTransformer(
-      std::map<std::string, SegmentationMethod>{ { "exact", SegmentationMethod::Exact }, { "hough", SegmentationMethod::Hough } }))
-    ->default_str("exact");
+  addBallRadiusOption(*command, arguments->ballRadiusMm);
+  addSegmentationOption(*command, arguments->detection.method);
   arguments->output.addTo(*command);
   command->callback([arguments, &exitCode] { exitCode = runDetect(*arguments); });
 }

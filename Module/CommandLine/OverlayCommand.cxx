@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommandOutput.h"
 #include "Commands.h"
+#include "CommonOptions.h"
 #include "EigenVtk.h"
 #include "FileError.h"
 #include "ImageFile.h"
@@ -147,23 +148,16 @@ void addOverlayCommand(CLI::App& app, int& exitCode)
   auto arguments = std::make_shared<OverlayArguments>();
   CLI::App* command =
     app.add_subcommand("overlay", "Draw a model onto the video where the phantom is: one PNG a frame, lens distortion included");
-  command->add_option("recording", arguments->recording, "Images, and the poses of the camera's marker and the phantom")
-    ->required()
-    ->type_name("RECORDING");
-  command->add_option("--calibration", arguments->calibration, "What `handeye calibrate` wrote")
-    ->required()
-    ->type_name("calibration.json");
+  addRecordingArgument(*command, arguments->recording, "Images, and the poses of the camera's marker and the phantom");
+  addCalibrationOption(*command, arguments->calibration);
   command->add_option("--model", arguments->model, "Surface mesh: STL, PLY, OBJ, VTP or legacy VTK, mm")
     ->required()
     ->type_name("MESH");
   command->add_option("--registration", arguments->registration, "What `handeye landmarks` wrote")
     ->required()
     ->type_name("phantom.json");
-  command->add_option("--phantom-transform", arguments->phantomTransform, "Pose of the phantom's marker in the recording")
-    ->capture_default_str()
-    ->type_name("NAME");
-  command->add_option("--marker-transform", arguments->markerTransform, "Pose of the camera's marker, if not the calibration's")
-    ->type_name("NAME");
+  addTransformOption(*command, "--phantom-transform", arguments->phantomTransform, "phantom's marker");
+  addTransformOption(*command, "--marker-transform", arguments->markerTransform, "camera's marker");
   command->add_flag("--mask", arguments->mask, "White where the model is, black elsewhere");
   command->add_option("-o,--output", arguments->folder, "Folder for the pictures, 0000.png and so on")
     ->required()

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommandOutput.h"
 #include "Commands.h"
+#include "CommonOptions.h"
 #include "PivotStep.h"
 #include "ResultFiles.h"
 
@@ -45,12 +46,8 @@ void addPivotCommand(CLI::App& app, int& exitCode)
 {
   auto arguments = std::make_shared<PivotArguments>();
   CLI::App* command = app.add_subcommand("pivot", "Find the tip of a stylus from a recording of it turning about that tip");
-  command->add_option("recording", arguments->recording, "Sequence metafile, or folder with tracking.igs.mha")
-    ->required()
-    ->type_name("RECORDING");
-  command->add_option("--transform", arguments->transform, "Pose of the stylus in the recording")
-    ->capture_default_str()
-    ->type_name("NAME");
+  addRecordingArgument(*command, arguments->recording, "Sequence metafile, or folder with tracking.igs.mha");
+  addTransformOption(*command, "--transform", arguments->transform, "stylus");
   arguments->output.addTo(*command);
   command->callback([arguments, &exitCode] { exitCode = runPivot(*arguments); });
 }

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommandOutput.h"
 #include "Commands.h"
+#include "CommonOptions.h"
 #include "PointLineRegistration.h"
 #include "ResultFiles.h"
 #include "TextTables.h"
 
 #include <iostream>
-#include <map>
 #include <memory>
 
 namespace handeye::cli
@@ -15,8 +15,6 @@ namespace handeye::cli
 
 namespace
 {
-
-using SolverMethod = PointLineOptions::Method;
 
 struct RegisterArguments
 {
@@ -51,10 +49,7 @@ void addRegisterCommand(CLI::App& app, int& exitCode)
   command->add_option("table", arguments->table, "Nine columns: point xyz, line origin xyz, line direction xyz; mm")
     ->required()
     ->type_name("POINTS-AND-LINES.txt");
-  command->add_option("--method", arguments->options.method, "global, or procrustes (the paper's iteration)")
-    ->transform(CLI::CheckedTransformer(
-      std::map<std::string, SolverMethod>{ { "global", SolverMethod::Global }, { "procrustes", SolverMethod::Procrustes } }))
-    ->default_str("global");
+  addSolverOption(*command, arguments->options.method);
   command->add_flag("--rays", arguments->options.linesAreRays, "The lines are rays: points must lie on the side they point to");
   arguments->output.addTo(*command);
   command->callback([arguments, &exitCode] { exitCode = runRegister(*arguments); });

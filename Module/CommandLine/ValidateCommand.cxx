@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommandOutput.h"
 #include "Commands.h"
+#include "CommonOptions.h"
 #include "ResultFiles.h"
 #include "ValidationReport.h"
 #include "ValidationStep.h"
@@ -63,17 +64,11 @@ void addValidateCommand(CLI::App& app, int& exitCode)
 {
   auto arguments = std::make_shared<ValidateArguments>();
   CLI::App* command = app.add_subcommand("validate", "Measure a calibration's projection error on a capture that was not fitted");
-  command->add_option("recording", arguments->recording, "Another capture: images and tracking")
-    ->required()
-    ->type_name("RECORDING");
-  command->add_option("--calibration", arguments->calibration, "What `handeye calibrate` wrote")
-    ->required()
-    ->type_name("calibration.json");
+  addRecordingArgument(*command, arguments->recording, "Another capture: images and tracking");
+  addCalibrationOption(*command, arguments->calibration);
   command->add_option("--report", arguments->report, "Write report.html and a picture a frame into this folder")->type_name("DIR");
-  command->add_option("--stylus-transform", arguments->stylusTransform, "Pose of the stylus, if not the calibration's")
-    ->type_name("NAME");
-  command->add_option("--marker-transform", arguments->markerTransform, "Pose of the camera's marker, if not the calibration's")
-    ->type_name("NAME");
+  addTransformOption(*command, "--stylus-transform", arguments->stylusTransform, "stylus");
+  addTransformOption(*command, "--marker-transform", arguments->markerTransform, "camera's marker");
   arguments->output.addTo(*command);
   command->callback([arguments, &exitCode] { exitCode = runValidate(*arguments); });
 }

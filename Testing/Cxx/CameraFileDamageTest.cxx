@@ -124,6 +124,7 @@ TEST(CameraFileDamage, Yaml_NamesTheLine)
   expectRefused(replaced(OpenCVYaml, "   cols: 3\n", "     cols: 3\n"), { "line 7", "'cols: 3'", "indented alike" });
   expectRefused(replaced(OpenCVYaml, "0., 0., 1. ]", "0., 0., 1. "), { "line 10", "every bracket closed" });
   expectRefused(replaced(OpenCVYaml, "[ 601.7, 0.,", "[ 601.7, 0. ] x"), { "line 9", "'data: [ 601.7, 0. ] x", "bracket" });
+  expectRefused(OpenCVYaml + "fisheye_model 1\n", { "line 15", "'fisheye_model 1' has no colon", "key: value" });
   expectRefused("image_width: 3\n" + OpenCVYaml.substr(14), { "line 2", "twice" });
 }
 
@@ -134,6 +135,9 @@ TEST(CameraFileDamage, Yaml_OnlyTheFirstDocumentCounts)
   EXPECT_NO_THROW((void)readCameraFile(folder.write("camera", OpenCVYaml + "...\n")));
   expectRefused("  image_width: 640\n" + OpenCVYaml.substr(OpenCVYaml.find("image_height")), { "line 2", "outside" });
   expectRefused(OpenCVYaml + "- 1\n", { "line 15" });
+  EXPECT_NO_THROW((void)readCameraFile(folder.write("camera", "---\n---\n" + OpenCVYaml.substr(OpenCVYaml.find("image")))));
+  expectRefused("%YAML 1.2\n]\n", { "line 2", "illegal flow end" });
+  expectRefused("---\n, a: 1\n", { "line 2", "outside" });
 }
 
 /// A few lines of aliases can stand for any amount of values.
@@ -162,6 +166,7 @@ TEST(CameraFileDamage, Xml_NamesTheLine)
   expectRefused(Xml + "<b/>\n", { "line 6", "beside its root element" });
   expectRefused(Xml + "trailing\n", { "line 6", "'trailing" });
   expectRefused(replaced(Xml, "<dt>", "<_>3</_><dt>"), { "line 3", "mixes" });
+  expectRefused(replaced(Xml, "<data>0. 0.", "<data>0. &#0; 0."), { "not a number", "'&#0;'" });
   expectRefused("<?xml vion=", { "cut short" });
 }
 

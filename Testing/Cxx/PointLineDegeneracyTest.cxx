@@ -99,12 +99,12 @@ TEST_P(PointLineDegeneracy, ParallelLines_ReportTheTranslation)
   {
     pairs[i].direction_Lines = (i % 2 ? -2.0 : 1.0) * Eigen::Vector3d(0.1, 0.2, 1);
   }
-  for (const Method method : { Method::Global, Method::Procrustes })
-  {
-    const PointLineResult result = solve(pairs, method);
-    EXPECT_EQ(result.status, Status::NotObservable);
-    EXPECT_TRUE(says(result.message, { "translation", "lines are parallel" }));
-  }
+  const PointLineResult result = solve(pairs);
+  EXPECT_EQ(result.status, Status::NotObservable);
+  EXPECT_TRUE(says(result.message, { "translation", "lines are parallel" }));
+  // Along the lines the paper's iteration may end anywhere, also behind the rays' origins.
+  const PointLineResult procrustes = solve(pairs, Method::Procrustes);
+  EXPECT_TRUE(procrustes.status == Status::NotObservable || (GetParam() && procrustes.status == Status::Mirrored));
 }
 
 TEST_P(PointLineDegeneracy, OneLineOfSight_ReportsParallelLines)
@@ -133,10 +133,9 @@ TEST_P(PointLineDegeneracy, PointsOnAPlane_AreEnough)
   EXPECT_LT(result.rmsMm, 1e-9);
 }
 
-TEST(PointLineAmbiguity, PlaneSeenFromAfar_IsAmbiguousForLinesAndNotForRays)
+TEST(PointLineAmbiguity, PlaneSeenFromOneCentre_IsAmbiguousForLinesAndNotForRays)
 {
-  // Through one centre every set of points also fits point-mirrored, were it not for the rotation; points of a plane that faces the
-  // camera fit behind it as well as in front.
+  // Mirrored in the centre, points still lie on their lines; for those of a plane this mirroring is a motion.
   Random random(7);
   std::vector<Eigen::Vector3d> points_Lines;
   for (int i = 0; i < 10; ++i)

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CommonOptions.h"
+
+#include <cmath>
+#include <map>
+
+namespace handeye::cli
+{
+
+namespace
+{
+
+/// An option that takes one of some words.
+template<typename Choice>
+void addChoice(CLI::App& command, const std::string& option, Choice& chosen, const std::map<std::string, Choice>& choices,
+  const std::string& byDefault, const std::string& what)
+{
+  std::string words;
+  for (const auto& choice : choices)
+  {
+    words += (words.empty() ? "" : "|") + choice.first;
+  }
+  command
+    .add_option_function<std::string>(
+      option,
+      [option, &chosen, choices, words](const std::string& word)
+      {
+        const auto found = choices.find(word);
+        if (found == choices.end())
+        {
+          throw CLI::ValidationError(option, "'" + word + "' is not one of " + words);
+        }
+        chosen = found->second;
+      },
+      what)
+    ->type_name(words)
+    ->default_str(byDefault);
+}
+
+}  // namespace
+
+void addRecordingArgument(CLI::App& command, std::string& recording, const std::string& what)
+{
+  command.add_option("recording", recording, what)->required()->type_name("RECORDING");
+}
+
+void addCameraOption(CLI::App& command, std::string& camera)
+{
+  command.add_option("--camera", camera, "Lens: OpenCV, ROS, SlicerPinholeCameras, VASST, scikit-surgery or calibration.json")
+    ->required()
+    ->type_name("CAMERA");
+}
+
+void addBallRadiusOption(CLI::App& command, double& ballRadiusMm)
+{
+  const auto isRadius = [](const std::string& text)
+  {
+    double radius = 0;
+    const bool good = CLI::detail::lexical_cast(text, radius) && radius > 0 && std::isfinite(radius);
+    return good ? std::string() : "'" + text + "' is not a radius, a positive number of mm is expected";
+  };
+  command.add_option("--ball-radius", ballRadiusMm, "Radius of the ball, mm")
+    ->required()
+    ->check(CLI::Validator(isRadius, std::string()))
+    ->type_name("MM");
+}
+
+void addSegmentationOption(CLI::App& command, BallDetectionOptions::Method& method)
+{
+  using Method = BallDetectionOptions::Method;
+  addChoice<Method>(command, "--segmentation", method, { { "exact", Method::Exact }, { "hough", Method::Hough } }, "exact",
+    "How the ball is found: by its outline's cone of rays, or by the paper's pipeline");
+}
+
+void addSolverOption(CLI::App& command, PointLineOptions::Method& method)
+{
+  using Method = PointLineOptions::Method;
+  addChoice<Method>(command, "--method", method, { { "global", Method::Global }, { "procrustes", Method::Procrustes } }, "global",
+    "How points are brought onto lines: to the global minimum, or by the paper's iteration");
+}
+
+void addCalibrationOption(CLI::App& command, std::string& calibration)
+{
+  command.add_option("--calibration", calibration, "What `handeye calibrate` wrote")->required()->type_name("calibration.json");
+}
+
+CLI::Option* addTransformOption(CLI::App& command, const std::string& option, std::string& name, const std::string& what)
+{
+  CLI::Option* added = command.add_option(
+    option, name, "Pose of the " + what + " in the recording" + (name.empty() ? ", if not the calibration's" : ""));
+  added->type_name("NAME");
+  return name.empty() ? added : added->capture_default_str();
+}
+
+}  // namespace handeye::cli

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "BallDetection.h"
+#include "PointLineRegistration.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace handeye::cli
+{
+
+/// Options that several commands have, so that they read alike everywhere.
+
+void addRecordingArgument(CLI::App& command, std::string& recording, const std::string& what);
+void addCameraOption(CLI::App& command, std::string& camera);
+void addBallRadiusOption(CLI::App& command, double& ballRadiusMm);
+void addSegmentationOption(CLI::App& command, BallDetectionOptions::Method& method);
+void addSolverOption(CLI::App& command, PointLineOptions::Method& method);
+void addCalibrationOption(CLI::App& command, std::string& calibration);
+
+/// @param what "stylus", "camera's marker", ...; an empty `name` is said to be the calibration's
+CLI::Option* addTransformOption(CLI::App& command, const std::string& option, std::string& name, const std::string& what);
+
+}  // namespace handeye::cli
