@@ -122,11 +122,7 @@ void addCalibrateCommand(CLI::App& app, int& exitCode)
   auto arguments = std::make_shared<CalibrateArguments>();
   CLI::App* command = app.add_subcommand("calibrate", "Find markerToCamera from a capture of the tracked ball");
   addRecordingArgument(*command, arguments->recording, "Capture: images and tracking");
-  command
-    ->add_option(
-      "--camera", arguments->camera, "Lens: OpenCV, ROS, SlicerPinholeCameras, VASST, scikit-surgery or calibration.json")
-    ->required()
-    ->type_name("CAMERA");
+  addCameraOption(*command, arguments->camera);
   command->add_option("--stylus", arguments->stylus, "What `handeye pivot` wrote")->required()->type_name("stylus.json");
   addBallRadiusOption(*command, arguments->ballRadiusMm);
   addSegmentationOption(*command, arguments->detection.method);

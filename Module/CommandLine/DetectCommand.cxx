@@ -51,11 +51,7 @@ void addDetectCommand(CLI::App& app, int& exitCode)
   auto arguments = std::make_shared<DetectArguments>();
   CLI::App* command = app.add_subcommand("detect", "Find the ball in every frame of a recording");
   addRecordingArgument(*command, arguments->recording, "Recording with images");
-  command
-    ->add_option(
-      "--camera", arguments->camera, "Lens: OpenCV, ROS, SlicerPinholeCameras, VASST, scikit-surgery or calibration.json")
-    ->required()
-    ->type_name("CAMERA");
+  addCameraOption(*command, arguments->camera);
   addBallRadiusOption(*command, arguments->ballRadiusMm);
   addSegmentationOption(*command, arguments->detection.method);
   arguments->output.addTo(*command);
