@@ -8,8 +8,7 @@ cd "$(dirname "$0")"
 # shellcheck source=Utilities/set_up.sh
 . Utilities/set_up.sh
 
-# shellcheck disable=SC2119
-set_up
+set_up handeye
 handeye=$build_dir/bin/handeye
 demo=Resources/Demo
 output=output/demo
@@ -39,7 +38,7 @@ step "The phantom: touched landmarks to the model" '^residual' \
   landmarks $demo/phantom_model_points.txt $demo/phantom_touched_points.txt -o $output/phantom.json
 step "The overlay: the vertebra on the video of its phantom" '^model drawn' \
   overlay $demo/validation --calibration $output/calibration.json --model Resources/Meshes/Vertebra.ply \
-  --registration $output/phantom.json -o $output/overlay
+  --registration $output/phantom.json --color 20a8ff -o $output/overlay
 rm -f "$output/step.log"
 
 say "Done. Look at

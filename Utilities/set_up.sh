@@ -68,19 +68,22 @@ install_packages()
   fi
 }
 
-# build_project <extra cmake arguments...>
+# build_project <target> <extra cmake arguments...>
 build_project()
 {
+  local target=$1
+  shift
   say "Configuring in $build_dir"
   mkdir -p build
   if ! cmake --preset release "$@" >build/configure.log 2>&1; then
     tail -n 20 build/configure.log >&2
     fail "the build could not be configured; the whole of it is in build/configure.log"
   fi
-  say "Building with $(nproc) cores (about 10 minutes on 2 cores the first time)"
-  NINJA_STATUS='[%f of %t, %es] ' cmake --build --preset release || fail "the build failed; the first error above says where"
+  say "Building with $(nproc) cores (some minutes the first time)"
+  NINJA_STATUS='[%f of %t, %es] ' cmake --build --preset release --target "$target" || fail "the build failed; the first error above says where"
 }
 
+# set_up <target> <extra cmake arguments...>
 set_up()
 {
   check_system

@@ -58,7 +58,7 @@ void checkLensModel(const std::filesystem::path& path, const Json& root, const N
   {
     return;
   }
-  const std::string name = model.is_string() ? model.get<std::string>() : model.dump();
+  const std::string name = model.is_string() ? model.get<std::string>() : model.dump(-1, ' ', true, Json::error_handler_t::replace);
   if (name != "plumb_bob" && name != "rational_polynomial")
   {
     throw FileError(path, "'distortion_model' is " + inQuotes(name) + "; expected plumb_bob or rational_polynomial");

@@ -8,6 +8,7 @@
 #include "ImageFile.h"
 #include "MeshReader.h"
 #include "OffscreenRendering.h"
+#include "OverlayPose.h"
 #include "ResultFiles.h"
 #include "vtkHandEyeOverlayPipeline.h"
 
@@ -18,7 +19,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 
 namespace handeye::cli
 {
@@ -32,43 +32,43 @@ struct OverlayArguments
   std::string phantomTransform = "PhantomToTracker";
   std::string markerTransform;
   bool mask = false;
+  std::string color;
+  double opacity = -1;
   CommandOutput output;
 };
-
-/// Where the model is in this frame, or why that is not known.
-struct ModelPose
-{
-  std::optional<Eigen::Isometry3d> modelToCamera;
-  std::string status = "ok";
-  std::string message;
-};
-
-ModelPose modelPose(const io::Recording& recording, int frame, const OverlayArguments& arguments, const StoredCalibration& stored,
-  const Eigen::Isometry3d& modelToPhantom)
-{
-  ModelPose pose;
-  const std::string markerName = arguments.markerTransform.empty() ? stored.tools.markerToTracker : arguments.markerTransform;
-  const io::TransformSample marker = recording.transform(frame, markerName);
-  const io::TransformSample phantom = recording.transform(frame, arguments.phantomTransform);
-  if (!marker.isUsable() || !phantom.isUsable())
-  {
-    const io::TransformSample& lost = marker.isUsable() ? phantom : marker;
-    pose.status = std::string(marker.isUsable() ? "phantom" : "marker") +
-      (lost.status == io::TransformSample::Status::Missing ? "_missing" : "_invalid");
-    pose.message = lost.reason;
-    return pose;
-  }
-  const Eigen::Isometry3d trackerToCamera = stored.markerToCamera * marker.transform.inverse();
-  const Eigen::Isometry3d phantomToCamera = trackerToCamera * phantom.transform;
-  pose.modelToCamera = phantomToCamera * modelToPhantom;
-  return pose;
-}
 
 cv::Mat toEightBit(const cv::Mat& image)
 {
   cv::Mat eight;
   image.convertTo(eight, CV_8U, image.depth() == CV_16U ? 1.0 / 257 : 1.0);
   return eight;
+}
+
+/// Colour and opacity, where the person asked for others than the pipeline's own.
+void setLook(const OverlayArguments& arguments, vtkHandEyeOverlayPipeline* pipeline)
+{
+  if (!arguments.color.empty())
+  {
+    const unsigned long rgb = std::stoul(arguments.color, nullptr, 16);
+    pipeline->SetModelColor(double(rgb >> 16) / 255, double(rgb >> 8 & 0xff) / 255, double(rgb & 0xff) / 255);
+  }
+  if (arguments.opacity >= 0)
+  {
+    pipeline->SetModelOpacity(arguments.opacity);
+  }
+}
+
+std::string checkColor(const std::string& text)
+{
+  const bool good = text.size() == 6 && text.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
+  return good ? std::string() : "'" + text + "' is not a colour, six hexadecimal digits such as 30b0ff are expected";
+}
+
+std::string checkOpacity(const std::string& text)
+{
+  double opacity = -1;
+  const bool good = CLI::detail::lexical_cast(text, opacity) && opacity >= 0 && opacity <= 1;
+  return good ? std::string() : "'" + text + "' is not an opacity, a number from 0 to 1 is expected";
 }
 
 int runOverlay(const OverlayArguments& arguments)
@@ -93,6 +93,7 @@ int runOverlay(const OverlayArguments& arguments)
   pipeline->SetCameraModel(camera);
   pipeline->SetModel(model);
   pipeline->SetMaskMode(arguments.mask);
+  setLook(arguments, pipeline);
   nlohmann::json frames = nlohmann::json::array();
   int drawn = 0;
   const Progress progress = arguments.output.progress("drawing, frame");
@@ -158,6 +159,12 @@ void addOverlayCommand(CLI::App& app, int& exitCode)
     ->type_name("phantom.json");
   addTransformOption(*command, "--phantom-transform", arguments->phantomTransform, "phantom's marker");
   addTransformOption(*command, "--marker-transform", arguments->markerTransform, "camera's marker");
+  command->add_option("--color", arguments->color, "Colour of the model, red green blue; ivory if not given")
+    ->check(CLI::Validator(checkColor, std::string()))
+    ->type_name("RRGGBB");
+  command->add_option("--opacity", arguments->opacity, "Opacity of the model, 0 to 1; 0.65 if not given")
+    ->check(CLI::Validator(checkOpacity, std::string()))
+    ->type_name("SHARE");
   command->add_flag("--mask", arguments->mask, "White where the model is, black elsewhere");
   command->add_option("-o,--output", arguments->folder, "Folder for the pictures, 0000.png and so on")
     ->required()
