@@ -9,6 +9,7 @@
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 
 #include <stdexcept>
 #include <string>
@@ -62,6 +63,17 @@ Eigen::Isometry3d toIsometry(const vtkMatrix4x4* matrix)
     throw std::invalid_argument("the matrix is not a rigid transform (rotation and translation only)");
   }
   return *rigid;
+}
+
+std::vector<Eigen::Vector3d> toEigen(vtkPoints* points)
+{
+  requirePointer(points, "points");
+  std::vector<Eigen::Vector3d> coordinates(std::size_t(points->GetNumberOfPoints()));
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    points->GetPoint(i, coordinates[std::size_t(i)].data());
+  }
+  return coordinates;
 }
 
 void toVtk(const cv::Mat& picture, vtkImageData* image)

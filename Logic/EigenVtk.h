@@ -9,8 +9,11 @@
 #include <opencv2/core.hpp>
 #include <vtkSmartPointer.h>
 
+#include <vector>
+
 class vtkImageData;
 class vtkMatrix4x4;
+class vtkPoints;
 
 /// The one place where the types of the mathematics (Eigen, OpenCV) and those of the display (VTK) meet.
 namespace handeye
@@ -31,6 +34,10 @@ VTK_SLICER_HANDEYECALIBRATION_MODULE_LOGIC_EXPORT Eigen::Matrix4d toEigen(const 
 /// A rigid transform: the rotation nearest to the matrix (see toRigid() in RigidTransform.h), its translation kept.
 /// @throws std::invalid_argument if `matrix` is null or not rigid to 1e-3, a scale or a mirror image among others
 VTK_SLICER_HANDEYECALIBRATION_MODULE_LOGIC_EXPORT Eigen::Isometry3d toIsometry(const vtkMatrix4x4* matrix);
+
+/// The coordinates of each point.
+/// @throws std::invalid_argument if `points` is null
+VTK_SLICER_HANDEYECALIBRATION_MODULE_LOGIC_EXPORT std::vector<Eigen::Vector3d> toEigen(vtkPoints* points);
 
 /// Copies an OpenCV picture (8 bits; grey, BGR or BGRA; top row first) into a VTK image (RGB; bottom row first), reusing its memory
 /// if the size is the same, and marks it modified. An alpha channel is dropped.

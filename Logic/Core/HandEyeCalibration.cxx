@@ -346,7 +346,7 @@ void HandEyeCalibrationOptions::check() const
 {
   if (!(trackingSigmaMm >= 0) || !(segmentationSigmaPx >= 0) || !(trackingSigmaMm + segmentationSigmaPx > 0) ||
     minimumSamples < 4 || !(rejectionFactor > 1) || !(maximumRejectedShare >= 0 && maximumRejectedShare < 1) ||
-    !(maximumPredictedErrorPx > 0))
+    !(maximumMisfit > 0) || !(maximumPredictedErrorPx > 0))
   {
     throw std::invalid_argument(
       "hand-eye calibration options: noise of at least 0, at least 4 samples, a rejection factor above 1 are expected");

@@ -17,7 +17,7 @@ class HANDEYE_SLICER_BASE_EXPORT vtkMRMLAbstractLogic : public vtkObject
 {
 public:
   static vtkMRMLAbstractLogic* New();
-  vtkTypeMacro(vtkMRMLAbstractLogic, vtkObject);
+  vtkTypeMacro(vtkMRMLAbstractLogic, vtkObject)
   void PrintSelf(std::ostream& os, vtkIndent indent) override;
 
   vtkMRMLScene* GetMRMLScene() const;

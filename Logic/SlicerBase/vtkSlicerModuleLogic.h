@@ -10,7 +10,7 @@ class HANDEYE_SLICER_BASE_EXPORT vtkSlicerModuleLogic : public vtkMRMLAbstractLo
 {
 public:
   static vtkSlicerModuleLogic* New();
-  vtkTypeMacro(vtkSlicerModuleLogic, vtkMRMLAbstractLogic);
+  vtkTypeMacro(vtkSlicerModuleLogic, vtkMRMLAbstractLogic)
   void PrintSelf(std::ostream& os, vtkIndent indent) override;
 
 protected:

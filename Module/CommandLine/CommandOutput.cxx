@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 
 namespace handeye::cli
@@ -18,7 +19,17 @@ void CommandOutput::addTo(CLI::App& command, bool withFile)
   command.add_flag("--json", this->json, "Print the result as one JSON object on standard output, messages on standard error");
   if (withFile)
   {
-    command.add_option("-o,--output", this->file, "Write the result to this file")->type_name("FILE");
+    // Found out before the work is done, not after it.
+    const auto hasFolder = [](const std::string& path)
+    {
+      const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+      return std::filesystem::is_directory(folder)
+        ? std::string()
+        : "'" + path + "' cannot be written, there is no folder '" + folder.string() + "'";
+    };
+    command.add_option("-o,--output", this->file, "Write the result to this file")
+      ->check(CLI::Validator(hasFolder, std::string()))
+      ->type_name("FILE");
   }
 }
 

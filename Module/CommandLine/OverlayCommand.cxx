@@ -17,6 +17,7 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -42,6 +43,16 @@ cv::Mat toEightBit(const cv::Mat& image)
   cv::Mat eight;
   image.convertTo(eight, CV_8U, image.depth() == CV_16U ? 1.0 / 257 : 1.0);
   return eight;
+}
+
+void makeFolder(const std::filesystem::path& folder)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+  {
+    throw io::FileError(folder, "the folder cannot be made: " + error.message());
+  }
 }
 
 /// Colour and opacity, where the person asked for others than the pipeline's own.
@@ -71,75 +82,90 @@ std::string checkOpacity(const std::string& text)
   return good ? std::string() : "'" + text + "' is not an opacity, a number from 0 to 1 is expected";
 }
 
-int runOverlay(const OverlayArguments& arguments)
+/// Draws the model onto the frames of a recording, one PNG a frame.
+class OverlayWriter
 {
-  const StoredCalibration stored = readCalibration(arguments.calibration);
-  const Eigen::Isometry3d modelToPhantom = readPhantomRegistration(arguments.registration);
-  const vtkSmartPointer<vtkPolyData> model = readMesh(arguments.model);
-  const io::Recording recording = io::Recording::open(arguments.recording);
-  arguments.output.warn(recording.warnings());
-  recording.requireTransform(arguments.phantomTransform);
-  recording.requireTransform(arguments.markerTransform.empty() ? stored.tools.markerToTracker : arguments.markerTransform);
-  const CameraModel camera = cameraForRecording(stored.camera, recording);
-  std::error_code error;
-  std::filesystem::create_directories(arguments.folder, error);
-  if (error)
+public:
+  OverlayWriter(const OverlayArguments& arguments, const StoredCalibration& stored, const io::Recording& recording)
+    : arguments_(arguments)
+    , recording_(recording)
+    , transforms_{ stored.markerToCamera, readPhantomRegistration(arguments.registration) }
+    , markerTransform_(arguments.markerTransform.empty() ? stored.tools.markerToTracker : arguments.markerTransform)
   {
-    throw io::FileError(arguments.folder, "the folder cannot be made: " + error.message());
+    recording.requireTransform(arguments.phantomTransform);
+    recording.requireTransform(markerTransform_);
+    model_ = readMesh(arguments.model);
+    registerOffscreenRendering();
+    pipeline_->SetCameraModel(cameraForRecording(stored.camera, recording));
+    pipeline_->SetModel(model_);
+    pipeline_->SetMaskMode(arguments.mask);
+    setLook(arguments, pipeline_);
   }
 
-  registerOffscreenRendering();
-  vtkNew<vtkHandEyeOverlayPipeline> pipeline;
-  pipeline->SetCameraModel(camera);
-  pipeline->SetModel(model);
-  pipeline->SetMaskMode(arguments.mask);
-  setLook(arguments, pipeline);
-  nlohmann::json frames = nlohmann::json::array();
-  int drawn = 0;
-  const Progress progress = arguments.output.progress("drawing, frame");
-  for (int frame = 0; frame < recording.frameCount(); ++frame)
+  /// @return what became of the frame, for the result
+  nlohmann::json draw(int frame)
   {
-    nlohmann::json row = { { "frame", frame } };
-    if (!recording.hasImage(frame))
+    if (!recording_.hasImage(frame))
     {
-      row["status"] = "image_missing";
-      frames.push_back(std::move(row));
-      continue;
+      return { { "frame", frame }, { "status", "image_missing" } };
     }
-    const ModelPose pose = modelPose(recording, frame, arguments, stored, modelToPhantom);
-    pipeline->SetVideoFrame(toEightBit(recording.image(frame)));
-    pipeline->SetModelVisible(pose.modelToCamera.has_value());
+    const OverlayPose pose = overlayPose(recording_, frame, markerTransform_, arguments_.phantomTransform, transforms_);
+    pipeline_->SetVideoFrame(toEightBit(recording_.image(frame)));
+    pipeline_->SetModelVisible(pose.isUsable());
     if (pose.modelToCamera)
     {
-      vtkNew<vtkMatrix4x4> modelToCamera;
-      toVtk(*pose.modelToCamera, modelToCamera);
-      pipeline->SetModelToCamera(modelToCamera);
-      ++drawn;
+      pipeline_->SetModelToCamera(toVtk(*pose.modelToCamera));
+      ++drawn_;
     }
     cv::Mat picture;
-    pipeline->RenderToImage(picture);
+    pipeline_->RenderToImage(picture);
     char name[32];
     std::snprintf(name, sizeof(name), "%04d.png", frame);
-    const std::filesystem::path file = std::filesystem::path(arguments.folder) / name;
+    const std::filesystem::path file = std::filesystem::path(arguments_.folder) / name;
     io::writePng(file, picture);
-    row["status"] = pose.status;
-    row["file"] = file.string();
+    nlohmann::json row = { { "frame", frame }, { "status", pose.status }, { "file", file.string() } };
     if (!pose.modelToCamera)
     {
       row["message"] = pose.message;
-      arguments.output.say("frame " + std::to_string(frame) + " has no model: " + pose.status + " (" + pose.message + ")");
+      arguments_.output.say("frame " + std::to_string(frame) + " has no model: " + pose.status + " (" + pose.message + ")");
     }
-    frames.push_back(std::move(row));
+    return row;
+  }
+
+  int drawn() const { return drawn_; }
+
+private:
+  const OverlayArguments& arguments_;
+  const io::Recording& recording_;
+  OverlayTransforms transforms_;
+  std::string markerTransform_;
+  vtkSmartPointer<vtkPolyData> model_;
+  vtkNew<vtkHandEyeOverlayPipeline> pipeline_;
+  int drawn_ = 0;
+};
+
+int runOverlay(const OverlayArguments& arguments)
+{
+  const StoredCalibration stored = readCalibration(arguments.calibration);
+  const io::Recording recording = io::Recording::open(arguments.recording);
+  arguments.output.warn(recording.warnings());
+  OverlayWriter writer(arguments, stored, recording);
+  makeFolder(arguments.folder);
+  nlohmann::json frames = nlohmann::json::array();
+  const Progress progress = arguments.output.progress("drawing, frame");
+  for (int frame = 0; frame < recording.frameCount(); ++frame)
+  {
+    frames.push_back(writer.draw(frame));
     if (progress)
     {
       progress(frame + 1, recording.frameCount());
     }
   }
-  const nlohmann::json result = { { "schema", "handeye-overlay/1" }, { "status", drawn > 0 ? "ok" : "nothing_drawn" },
-    { "message", "model drawn on " + std::to_string(drawn) + " of " + std::to_string(recording.frameCount()) + " frames" },
-    { "frames", frames } };
-  arguments.output.say(result["message"].get<std::string>() + ", pictures in " + arguments.folder);
-  return arguments.output.finish(result);
+  const std::string message =
+    "model drawn on " + std::to_string(writer.drawn()) + " of " + std::to_string(recording.frameCount()) + " frames";
+  arguments.output.say(message + ", pictures in " + arguments.folder);
+  return arguments.output.finish({ { "schema", "handeye-overlay/1" }, { "status", writer.drawn() > 0 ? "ok" : "nothing_drawn" },
+    { "message", message }, { "frames", frames } });
 }
 
 }  // namespace

@@ -8,6 +8,31 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string>
+
+namespace
+{
+
+/// CLI11 says of an unknown command only that one is required.
+std::string explain(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv)
+{
+  if (argc < 2 || argv[1][0] == '-')
+  {
+    return error.what();
+  }
+  std::string commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+  {
+    if (command->check_name(argv[1]))
+    {
+      return error.what();
+    }
+    commands += " " + command->get_name();
+  }
+  return "'" + std::string(argv[1]) + "' is not a command; there are:" + commands;
+}
+
+}  // namespace
 
 int main(int argc, char** argv)
 {
@@ -39,7 +64,8 @@ int main(int argc, char** argv)
   }
   catch (const CLI::ParseError& error)
   {
-    std::cerr << "handeye: " << error.what() << "\nRun `handeye --help` or `handeye COMMAND --help` for the usage.\n";
+    std::cerr << "handeye: " << explain(app, error, argc, argv)
+              << "\nRun `handeye --help` or `handeye COMMAND --help` for the usage.\n";
     return WrongUse;
   }
   catch (const std::bad_alloc&)
