@@ -113,6 +113,10 @@ StoredCalibration readCalibration(const Path& path)
   StoredCalibration stored{ readTransform(path, object, "markerToCamera"), io::readCameraFile(path).camera, {}, 0, {} };
   stored.tip_Stylus = readVector(path, object, "tip_Stylus_Mm");
   stored.ballRadiusMm = readNumber(path, object.value("ballRadiusMm", json()), "ballRadiusMm");
+  if (!(stored.ballRadiusMm > 0))
+  {
+    throw io::FileError(path, "\"ballRadiusMm\": a positive number is expected");
+  }
   const auto name = [&](const char* key, const std::string& otherwise)
   {
     const json value = object.value(key, json(otherwise));

@@ -65,7 +65,8 @@ std::vector<HandEyeSample> simulateStereo(
   {
     const Eigen::Vector3d ball_Camera = randomPointInView(eyes[0].camera, capture, random);
     const CameraModel::Projection seen = eyes[1].camera.project(eyes[1].cameraToEye * ball_Camera);
-    const bool isInImage = seen.isUsable() && seen.point_Image.minCoeff() > 0 && seen.point_Image.x() < 719 && seen.point_Image.y() < 575;
+    const bool isInImage =
+      seen.isUsable() && seen.point_Image.minCoeff() > 0 && seen.point_Image.x() < 719 && seen.point_Image.y() < 575;
     if (isInImage)
     {
       const int frame = int(left.size());
@@ -85,7 +86,8 @@ TEST(HandEyeCalibration, NoiseFree_RecoversTheTruthThroughEachLens)
   Random random(1);
   for (const NamedCamera& named : allCameras())
   {
-    for (const Eigen::Isometry3d& truth : { typicalMarkerToCamera(), Eigen::Isometry3d::Identity(), makeRigid({ 0, EIGEN_PI, 0 }, { 5, 60, -20 }) })
+    for (const Eigen::Isometry3d& truth :
+      { typicalMarkerToCamera(), Eigen::Isometry3d::Identity(), makeRigid({ 0, EIGEN_PI, 0 }, { 5, 60, -20 }) })
     {
       const auto samples = simulateSamples(named.camera, truth, 12, {}, random);
       const HandEyeCalibrationResult result = calibrateHandEye(samples, { { named.camera } }, trusting());
@@ -116,8 +118,8 @@ TEST(HandEyeCalibration, NoiseToleranceTable_HoldsForEachMethod)
     double nearestMm, furthestMm;
     double rotationRmsRad, translationRmsMm;  // over 40 runs of 14 samples
   };
-  const Row rows[] = { { { "webcam", webcam() }, 150, 700, 0.0022, 1.0 }, { { "laparoscope", laparoscope() }, 60, 250, 0.0045, 0.8 },
-    { { "passThrough", passThrough() }, 200, 600, 0.0016, 0.9 } };
+  const Row rows[] = { { { "webcam", webcam() }, 150, 700, 0.0022, 1.0 },
+    { { "laparoscope", laparoscope() }, 60, 250, 0.0045, 0.8 }, { { "passThrough", passThrough() }, 200, 600, 0.0016, 0.9 } };
   for (const Method method : { Method::Global, Method::Procrustes })
   {
     for (const Row& row : rows)
@@ -147,8 +149,8 @@ TEST(HandEyeCalibration, NoiseToleranceTable_HoldsForEachMethod)
 
 TEST(HandEyeCalibration, Covariance_IsHonest)
 {
-  for (const auto& [named, nearestMm, furthestMm] :
-    { std::tuple(NamedCamera{ "webcam", webcam() }, 150.0, 700.0), std::tuple(NamedCamera{ "laparoscope", laparoscope() }, 60.0, 250.0) })
+  for (const auto& [named, nearestMm, furthestMm] : { std::tuple(NamedCamera{ "webcam", webcam() }, 150.0, 700.0),
+         std::tuple(NamedCamera{ "laparoscope", laparoscope() }, 60.0, 250.0) })
   {
     Random random(4);
     constexpr int runs = 150;
@@ -188,7 +190,8 @@ TEST(HandEyeCalibration, PredictedError_IsWhatNewPointsShow)
     EXPECT_GT(result.predicted.furthestMm, result.predicted.nearestMm + 200);
     for (int i = 0; i < 50; ++i)
     {
-      const Eigen::Vector3d point_Camera = randomPointInView(camera, { result.predicted.nearestMm, result.predicted.furthestMm, 0 }, random);
+      const Eigen::Vector3d point_Camera =
+        randomPointInView(camera, { result.predicted.nearestMm, result.predicted.furthestMm, 0 }, random);
       const Eigen::Vector3d point_Marker = truth.inverse() * point_Camera;
       const Eigen::Vector2d shown = camera.project(result.markerToCamera * point_Marker).point_Image;
       squares += (shown - camera.project(point_Camera).point_Image).squaredNorm() / (60 * 50);
@@ -203,8 +206,10 @@ TEST(HandEyeCalibration, LargerScatterThanExpected_WidensTheCovariance)
   shaky.trackingSigmaMm *= 4;
   shaky.segmentationSigmaPx *= 4;
   Random calm(6), restless(6);
-  const auto expected = calibrateHandEye(simulateSamples(webcam(), typicalMarkerToCamera(), 14, noisy(150, 700), calm), { { webcam() } }, trusting());
-  const auto wide = calibrateHandEye(simulateSamples(webcam(), typicalMarkerToCamera(), 14, shaky, restless), { { webcam() } }, trusting());
+  const auto expected =
+    calibrateHandEye(simulateSamples(webcam(), typicalMarkerToCamera(), 14, noisy(150, 700), calm), { { webcam() } }, trusting());
+  const auto wide =
+    calibrateHandEye(simulateSamples(webcam(), typicalMarkerToCamera(), 14, shaky, restless), { { webcam() } }, trusting());
   EXPECT_NEAR(std::sqrt(wide.covariance.trace() / expected.covariance.trace()), 4, 1.5);
   EXPECT_GT(wide.reprojectionRmsPx, 2.5 * expected.reprojectionRmsPx);
 }

@@ -51,8 +51,7 @@ TEST(HoughBall, AsADetection_GivesRayAndDistance)
   const RenderedBall ball = ballSeenAt(laparoscope(), 0.5, 0.45, 45);
   BallDetectionOptions options;
   options.method = BallDetectionOptions::Method::Hough;
-  const BallDetection found =
-    detectBall(SphereScene(laparoscope()).add(ball).photograph(), laparoscope(), ball.radiusMm, options);
+  const BallDetection found = detectBall(SphereScene(laparoscope()).add(ball).photograph(), laparoscope(), ball.radiusMm, options);
   ASSERT_TRUE(found.isFound()) << found.message;
   EXPECT_TRUE(pointNear(found.ray_Camera, ball.center_Camera.normalized(), 0.004));
   EXPECT_NEAR(found.distanceMm / ball.center_Camera.norm(), 1, 0.08);

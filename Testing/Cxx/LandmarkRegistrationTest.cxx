@@ -128,7 +128,8 @@ TEST(LandmarkRegistration, PointsOnALineOrInOnePlace_AreCollinear)
   for (const Points& degenerate : { line, place })
   {
     const Points good(Vertebra.begin(), Vertebra.begin() + 4);
-    for (const auto& [model, phantom] : { std::pair(degenerate, degenerate), std::pair(good, degenerate), std::pair(degenerate, good) })
+    for (const auto& [model, phantom] :
+      { std::pair(degenerate, degenerate), std::pair(good, degenerate), std::pair(degenerate, good) })
     {
       const LandmarkRegistrationResult result = registerLandmarks(model, phantom);
       EXPECT_EQ(result.status, Status::Collinear);

@@ -168,8 +168,9 @@ TEST(PivotCalibration, TurningAboutOneAxis_IsReported)
 TEST(PivotCalibration, SwingInOnePlaneWithAnUnsteadyHand_IsReported)
 {
   Random random(8);
-  const auto swing = [&]
-  { return Eigen::Matrix3d(rotationFromVector({ random.uniform(-0.6, 0.6), 0, 0 }) * rotationFromVector(random.normal3(0.02))); };
+  const auto swing = [&] {
+    return Eigen::Matrix3d(rotationFromVector({ random.uniform(-0.6, 0.6), 0, 0 }) * rotationFromVector(random.normal3(0.02)));
+  };
   EXPECT_EQ(calibratePivot(PivotSimulation().record(200, swing, random)).status, Status::RotationAboutOneAxis);
 }
 

@@ -43,7 +43,8 @@ TEST(PivotStep, Recording_GivesTipAndTheFramesItRestsOn)
   ASSERT_TRUE(result.calibration.isUsable()) << result.calibration.message;
   EXPECT_TRUE(pointNear(result.calibration.tip_Stylus, stylus.tip_Stylus, 0.1));
   EXPECT_EQ(result.invalidFrames, (std::vector<int>{ 3, 50 }));
-  EXPECT_EQ(std::count(result.rejectedFrames.begin(), result.rejectedFrames.end(), 80), 1) << "a frame, not an index of valid poses";
+  EXPECT_EQ(std::count(result.rejectedFrames.begin(), result.rejectedFrames.end(), 80), 1)
+    << "a frame, not an index of valid poses";
   EXPECT_EQ(result.usedFrames.size() + result.rejectedFrames.size() + result.invalidFrames.size(), 120U);
   EXPECT_EQ(result.usedFrames.back(), 119);
 }
@@ -70,6 +71,6 @@ TEST(PivotStep, OtherTransformName_ListsThoseThatExist)
   const auto path = folder.path() / "pivot.igs.mha";
   SimulatedSession::writeTracking(path, toFrames({ Eigen::Isometry3d::Identity() }));
   const io::Recording recording = io::Recording::open(path);
-  expectFileError([&] { (void)pivotFromRecording(recording, "PointerToTracker"); },
-    { "pivot.igs.mha", "PointerToTracker", "StylusToTracker" });
+  expectFileError(
+    [&] { (void)pivotFromRecording(recording, "PointerToTracker"); }, { "pivot.igs.mha", "PointerToTracker", "StylusToTracker" });
 }

@@ -170,7 +170,8 @@ TEST(PointLineRegistration, PointsNearlyOnALine_StillEndInTheMinimum)
     const Eigen::Vector3d along(0.5, -0.3, 0.8);
     for (int i = 0; i < 12; ++i)
     {
-      const Eigen::Vector3d point_Lines = Eigen::Vector3d(20, -10, 400) + random.uniform(-200, 200) * along + random.normal3(lateralMm);
+      const Eigen::Vector3d point_Lines =
+        Eigen::Vector3d(20, -10, 400) + random.uniform(-200, 200) * along + random.normal3(lateralMm);
       pairs.push_back({ truth.inverse() * point_Lines + random.normal3(0.1), Eigen::Vector3d::Zero(), point_Lines, 1 });
     }
     const PointLineResult result = solveGlobally(pairs, true);
@@ -310,7 +311,8 @@ TEST(PointLineRegistration, InformationMatrix_IsHalfTheSecondDerivative)
   {
     for (int k = 0; k < 6; ++k)
     {
-      const double second = (costAt(i, 1, k, 1) - costAt(i, 1, k, -1) - costAt(i, -1, k, 1) + costAt(i, -1, k, -1)) / (4 * step(i) * step(k));
+      const double second =
+        (costAt(i, 1, k, 1) - costAt(i, 1, k, -1) - costAt(i, -1, k, 1) + costAt(i, -1, k, -1)) / (4 * step(i) * step(k));
       const double size = std::sqrt(information(i, i) * information(k, k));
       EXPECT_NEAR(information(i, k), second / 2, 1e-5 * size) << i << ", " << k;
     }

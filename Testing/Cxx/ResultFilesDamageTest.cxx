@@ -49,28 +49,39 @@ protected:
   /// Each of the ways in which a list of numbers can be wrong.
   void expectVectorIsChecked(const Read& read, const json& good, const std::string& key) const
   {
-    expectRefused(read, good, [&](json& object) { object.erase(key); }, key);
+    expectRefused(
+      read, good, [&](json& object) { object.erase(key); }, key);
     for (const json& wrong : { json(), json(5), json("1 2 3"), json::array(), json({ 1, 2 }), json({ 1, 2, 3, 4 }),
            json({ 1, "2", 3 }), json({ 1, nullptr, 3 }), json({ 1, { 2 }, 3 }), json{ { "x", 1 } } })
     {
-      expectRefused(read, good, [&](json& object) { object[key] = wrong; }, key);
+      expectRefused(
+        read, good, [&](json& object) { object[key] = wrong; }, key);
     }
   }
 
   void expectTransformIsChecked(const Read& read, const json& good, const std::string& key) const
   {
-    expectRefused(read, good, [&](json& object) { object.erase(key); }, key);
+    expectRefused(
+      read, good, [&](json& object) { object.erase(key); }, key);
     for (const json& wrong : { json(), json(5), json::array(), json({ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 }) })
     {
-      expectRefused(read, good, [&](json& object) { object[key] = wrong; }, key);
+      expectRefused(
+        read, good, [&](json& object) { object[key] = wrong; }, key);
     }
-    expectRefused(read, good, [&](json& object) { object[key].erase(3); }, key);
-    expectRefused(read, good, [&](json& object) { object[key][2].erase(3); }, key);
-    expectRefused(read, good, [&](json& object) { object[key][1][3] = "12"; }, key);
-    expectRefused(read, good, [&](json& object) { object[key][1][3] = nullptr; }, key);
-    expectRefused(read, good, [&](json& object) { object[key][0][0] = -1; }, key);
-    expectRefused(read, good, [&](json& object) { object[key][0][0] = 1.1; }, key);
-    expectRefused(read, good, [&](json& object) { object[key][3][0] = 7; }, key);
+    expectRefused(
+      read, good, [&](json& object) { object[key].erase(3); }, key);
+    expectRefused(
+      read, good, [&](json& object) { object[key][2].erase(3); }, key);
+    expectRefused(
+      read, good, [&](json& object) { object[key][1][3] = "12"; }, key);
+    expectRefused(
+      read, good, [&](json& object) { object[key][1][3] = nullptr; }, key);
+    expectRefused(
+      read, good, [&](json& object) { object[key][0][0] = -1; }, key);
+    expectRefused(
+      read, good, [&](json& object) { object[key][0][0] = 1.1; }, key);
+    expectRefused(
+      read, good, [&](json& object) { object[key][3][0] = 7; }, key);
   }
 };
 
@@ -100,25 +111,38 @@ TEST_F(ResultFilesDamage, Calibration_IsRefusedNamingTheKey)
   expectVectorIsChecked(readCamera, GoodCalibration, "tip_Stylus_Mm");
   for (const json& wrong : { json(), json("12"), json({ 12 }), json(true), json(0), json(-12) })
   {
-    expectRefused(readCamera, GoodCalibration, [&](json& object) { object["ballRadiusMm"] = wrong; }, "ballRadiusMm");
+    expectRefused(
+      readCamera, GoodCalibration, [&](json& object) { object["ballRadiusMm"] = wrong; }, "ballRadiusMm");
   }
-  expectRefused(readCamera, GoodCalibration, [](json& object) { object.erase("ballRadiusMm"); }, "ballRadiusMm");
+  expectRefused(
+    readCamera, GoodCalibration, [](json& object) { object.erase("ballRadiusMm"); }, "ballRadiusMm");
 }
 
 TEST_F(ResultFilesDamage, CalibrationsCamera_IsRefusedNamingTheKey)
 {
-  expectRefused(readCamera, GoodCalibration, [](json& object) { object.erase("camera"); }, "camera");
-  expectRefused(readCamera, GoodCalibration, [](json& object) { object["camera"] = 5; }, "camera");
+  expectRefused(
+    readCamera, GoodCalibration, [](json& object) { object.erase("camera"); }, "camera");
+  expectRefused(
+    readCamera, GoodCalibration, [](json& object) { object["camera"] = 5; }, "camera");
   for (const char* key : { "width", "height", "cameraMatrix", "distortionCoefficients" })
   {
-    expectRefused(readCamera, GoodCalibration, [&](json& object) { object["camera"].erase(key); }, key);
-    expectRefused(readCamera, GoodCalibration, [&](json& object) { object["camera"][key] = "wrong"; }, key);
-    expectRefused(readCamera, GoodCalibration, [&](json& object) { object["camera"][key] = nullptr; }, key);
+    expectRefused(
+      readCamera, GoodCalibration, [&](json& object) { object["camera"].erase(key); }, key);
+    expectRefused(
+      readCamera, GoodCalibration, [&](json& object) { object["camera"][key] = "wrong"; }, key);
+    expectRefused(
+      readCamera, GoodCalibration, [&](json& object) { object["camera"][key] = nullptr; }, key);
   }
-  expectRefused(readCamera, GoodCalibration, [](json& object) { object["camera"]["width"] = -640; }, "width");
-  expectRefused(readCamera, GoodCalibration, [](json& object) { object["camera"]["cameraMatrix"][0][0] = 0; }, "cameraMatrix");
   expectRefused(
-    readCamera, GoodCalibration, [](json& object) { object["camera"]["distortionCoefficients"] = { 1, 2, 3 }; }, "distortionCoefficients");
+    readCamera, GoodCalibration, [](json& object) { object["camera"]["width"] = -640; }, "width");
+  expectRefused(
+    readCamera, GoodCalibration, [](json& object) { object["camera"]["cameraMatrix"][0][0] = 0; }, "cameraMatrix");
+  expectRefused(
+    readCamera, GoodCalibration,
+    [](json& object) {
+      object["camera"]["distortionCoefficients"] = { 1, 2, 3 };
+    },
+    "distortionCoefficients");
 }
 
 TEST_F(ResultFilesDamage, FileWhoseStatusIsNotOk_IsRefused)
@@ -128,12 +152,15 @@ TEST_F(ResultFilesDamage, FileWhoseStatusIsNotOk_IsRefused)
     object["status"] = "too_uncertain";
     object["message"] = "spread them over the image";
   };
-  for (const auto& [read, good] : { std::pair(readStylus, GoodStylus), std::pair(readCamera, GoodCalibration), std::pair(readPhantom, GoodPhantom) })
+  for (const auto& [read, good] :
+    { std::pair(readStylus, GoodStylus), std::pair(readCamera, GoodCalibration), std::pair(readPhantom, GoodPhantom) })
   {
     expectRefused(read, good, fail, "too_uncertain");
     expectRefused(read, good, fail, "spread them over the image");
-    expectRefused(read, good, [](json& object) { object["status"] = 0; }, "status");
-    expectRefused(read, good, [](json& object) { object["status"] = nullptr; }, "status");
+    expectRefused(
+      read, good, [](json& object) { object["status"] = 0; }, "status");
+    expectRefused(
+      read, good, [](json& object) { object["status"] = nullptr; }, "status");
   }
 }
 
@@ -147,7 +174,8 @@ TEST_F(ResultFilesDamage, WhatIsNoResultFile_IsRefused)
     expectFileError([&] { read(folder.write("result.json", "{\"status\": \"ok\", ")); }, { "result.json", "JSON" });
     expectFileError([&] { read(folder.write("result.json", "[1, 2, 3]")); }, { "result.json", "JSON object" });
     expectFileError([&] { read(folder.write("result.json", "{}")); }, { "result.json", "missing" });
-    expectFileError([&] { read(folder.write("result.json", std::string("\x89PNG\r\n\x1a\n\0\0", 10))); }, { "result.json", "JSON" });
+    expectFileError(
+      [&] { read(folder.write("result.json", std::string("\x89PNG\r\n\x1a\n\0\0", 10))); }, { "result.json", "JSON" });
   }
 }
 

@@ -60,7 +60,8 @@ PivotStepResult pivot(double largestTilt)
 TEST(ResultFiles, Stylus_HasTheKeysOfTheContract)
 {
   const json object = stylusJson(pivot(35 * Degree));
-  expectKeys(object, { "schema", "status", "message", "tip_Stylus_Mm", "rmsMm", "maxMm", "usedFrames", "rejectedFrames", "tipCovariance_Mm2" });
+  expectKeys(object,
+    { "schema", "status", "message", "tip_Stylus_Mm", "rmsMm", "maxMm", "usedFrames", "rejectedFrames", "tipCovariance_Mm2" });
   EXPECT_EQ(object["status"], "ok");
   EXPECT_EQ(object["tip_Stylus_Mm"].size(), 3U);
   EXPECT_NEAR(object["tip_Stylus_Mm"][2].get<double>(), -158, 0.3);
@@ -87,8 +88,9 @@ TEST(ResultFiles, Calibration_HasTheKeysOfTheContract)
   frames[2].message = "no ball is seen";
   frames[2].ball = {};
   const json object = calibrationJson(calibrate(session, frames));
-  expectKeys(object, { "schema", "status", "message", "markerToCamera", "camera", "tip_Stylus_Mm", "ballRadiusMm", "reprojectionRmsPx",
-                       "covariance", "samples" });
+  expectKeys(object,
+    { "schema", "status", "message", "markerToCamera", "camera", "tip_Stylus_Mm", "ballRadiusMm", "reprojectionRmsPx", "covariance",
+      "samples" });
   EXPECT_EQ(object["status"], "ok");
   expectShape(object["markerToCamera"], 4, 4);
   EXPECT_EQ(object["markerToCamera"][3], json({ 0.0, 0.0, 0.0, 1.0 }));
@@ -134,8 +136,8 @@ TEST(ResultFiles, StereoCalibration_HasBothTransformsOrNone)
   right.markerToCamera = leftToRight * left.markerToCamera;
   for (const auto& relation : { std::optional<Eigen::Isometry3d>(leftToRight), std::optional<Eigen::Isometry3d>() })
   {
-    const json object = calibrationJson(
-      calibrateStereoCapture({ left.camera, left.captured() }, { right.camera, right.captured() }, relation));
+    const json object =
+      calibrationJson(calibrateStereoCapture({ left.camera, left.captured() }, { right.camera, right.captured() }, relation));
     expectKeys(object, { "markerToCamera", "markerToRightCamera", "rightCamera", "rightSamples" });
     EXPECT_NEAR(object["markerToRightCamera"][0][3].get<double>(), right.markerToCamera.translation().x(), 1e-6);
     EXPECT_EQ(object["rightSamples"].size(), 8U);
@@ -143,7 +145,8 @@ TEST(ResultFiles, StereoCalibration_HasBothTransformsOrNone)
   }
   std::vector<CapturedFrame> few = right.captured();
   few.resize(2);
-  const json object = calibrationJson(calibrateStereoCapture({ left.camera, left.captured() }, { right.camera, few }, std::nullopt));
+  const json object =
+    calibrationJson(calibrateStereoCapture({ left.camera, left.captured() }, { right.camera, few }, std::nullopt));
   EXPECT_EQ(object["status"], "too_few_samples");
   EXPECT_FALSE(object.contains("markerToCamera")) << "half a stereo head is no result";
   EXPECT_FALSE(object.contains("markerToRightCamera"));

@@ -111,8 +111,8 @@ inline HandEyeSample makeSample(int frame, const Eigen::Vector3d& ball_Camera, c
   return sample;
 }
 
-inline std::vector<HandEyeSample> simulateSamples(const CameraModel& camera, const Eigen::Isometry3d& markerToCamera, int count,
-  const SimulatedCapture& capture, Random& random)
+inline std::vector<HandEyeSample> simulateSamples(
+  const CameraModel& camera, const Eigen::Isometry3d& markerToCamera, int count, const SimulatedCapture& capture, Random& random)
 {
   std::vector<HandEyeSample> samples;
   for (int frame = 0; frame < count; ++frame)

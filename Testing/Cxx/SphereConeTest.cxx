@@ -29,7 +29,8 @@ struct Ball
 std::vector<Eigen::Vector3d> tangentRays(const Ball& ball, int count, double fromRad = 0, double toRad = 2 * EIGEN_PI)
 {
   const double distance = ball.center_Camera.norm(), alpha = std::asin(ball.radiusMm / distance);
-  const Eigen::Matrix3d zToBall = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ball.center_Camera).toRotationMatrix();
+  const Eigen::Matrix3d zToBall =
+    Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ball.center_Camera).toRotationMatrix();
   std::vector<Eigen::Vector3d> rays;
   for (int i = 0; i < count; ++i)
   {

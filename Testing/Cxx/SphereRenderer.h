@@ -201,7 +201,8 @@ private:
         box.extend(seen.point_Image);
       }
     }
-    const cv::Rect area(cv::Point(int(box.min().x()) - 3, int(box.min().y()) - 3), cv::Point(int(box.max().x()) + 4, int(box.max().y()) + 4));
+    const cv::Rect area(
+      cv::Point(int(box.min().x()) - 3, int(box.min().y()) - 3), cv::Point(int(box.max().x()) + 4, int(box.max().y()) + 4));
     return area & cv::Rect({ 0, 0 }, light_.size());
   }
 

@@ -149,5 +149,6 @@ TEST_F(ValidationReport, NothingValidated_StillMakesAPage)
 TEST_F(ValidationReport, FolderThatCannotBeMade_IsReported)
 {
   const auto inTheWay = folder.write("file", "in the way");
-  expectFileError([&] { writeValidationReport(inTheWay / "report", result, io::Recording::open(folder.path() / "capture")); }, { "file" });
+  expectFileError(
+    [&] { writeValidationReport(inTheWay / "report", result, io::Recording::open(folder.path() / "capture")); }, { "file" });
 }
