@@ -233,7 +233,7 @@ vtkSlicerHandEyeCalibrationLogic::StepEnd vtkSlicerHandEyeCalibrationLogic::Inte
     this->Validation.reset();
     this->UpdateValidationTable();
   }
-  const StepEnd end{ calibration.isUsable(), calibration.message };
+  StepEnd end{ calibration.isUsable(), calibration.message };
   capture.attempt = std::move(result);
   this->Capture = std::move(capture);
   this->UpdateSampleTable();

@@ -97,7 +97,9 @@ void vtkSlicerHandEyeCalibrationLogic::Internals::UpdateSampleTable()
   table.add<vtkDoubleArray>("distanceMm", rows,
     [](const CalibratedFrame& row) { return row.captured.ball.isFound() ? row.captured.ball.distanceMm : NotKnown; });
   addBall(table, rows);
-  table.add<vtkStringArray>("message", rows, [](const CalibratedFrame& row) { return row.captured.message; });
+  table.add<vtkStringArray>("message", rows,
+    [](const CalibratedFrame& row)
+    { return row.status == "disagrees" ? std::string("disagrees with the other samples") : row.captured.message; });
 }
 
 void vtkSlicerHandEyeCalibrationLogic::Internals::UpdateValidationTable()

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 using namespace handeye;
 using namespace handeye::test;
 using handeye::io::test::TemporaryFolder;

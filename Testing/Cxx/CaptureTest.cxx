@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 using namespace handeye;
 using namespace handeye::test;
 using handeye::io::test::expectFileError;

@@ -147,6 +147,58 @@ TEST(HandEyeCalibration, NoiseToleranceTable_HoldsForEachMethod)
   }
 }
 
+TEST(HandEyeCalibration, Weights_BeatEqualOnesWhereTheNoiseGrowsWithDistance)
+{
+  // A soft image and a good tracker: far balls say less in mm.
+  SimulatedCapture capture;
+  capture.nearestMm = 100;
+  capture.furthestMm = 1200;
+  capture.trackingSigmaMm = 0.1;
+  capture.segmentationSigmaPx = 1.5;
+  HandEyeCalibrationOptions weighted = trusting();
+  weighted.trackingSigmaMm = 0.1;
+  weighted.segmentationSigmaPx = 1.5;
+  HandEyeCalibrationOptions equal = weighted;
+  equal.method = Method::Procrustes;  // the same cost, knowing no weights
+  Random random(31);
+  double withWeights = 0, without = 0;
+  for (int run = 0; run < 40; ++run)
+  {
+    const Eigen::Isometry3d truth = random.rigid(80);
+    const auto samples = simulateSamples(webcam(), truth, 14, capture, random);
+    const HandEyeCalibrationResult a = calibrateHandEye(samples, { { webcam() } }, weighted);
+    const HandEyeCalibrationResult b = calibrateHandEye(samples, { { webcam() } }, equal);
+    if (b.isUsable())
+    {
+      withWeights += std::pow(translationErrorMm(a.markerToCamera, truth), 2);
+      without += std::pow(translationErrorMm(b.markerToCamera, truth), 2);
+    }
+  }
+  EXPECT_LT(std::sqrt(withWeights), 0.8 * std::sqrt(without));
+}
+
+TEST(HandEyeCalibration, PreciseSamples_CountMore)
+{
+  Random random(32);
+  SimulatedCapture capture;
+  auto samples = simulateSamples(webcam(), typicalMarkerToCamera(), 12, capture, random);
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    samples[i].ball_Image += Eigen::Vector2d(6, -5);
+    samples[i].ray_Eye = webcam().unproject(samples[i].ball_Image).ray_Camera;
+  }
+  const double equally =
+    translationErrorMm(calibrateHandEye(samples, { { webcam() } }, trusting()).markerToCamera, typicalMarkerToCamera());
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    samples[i].sigmaPx = 200;
+  }
+  const double bySigma =
+    translationErrorMm(calibrateHandEye(samples, { { webcam() } }, trusting()).markerToCamera, typicalMarkerToCamera());
+  EXPECT_GT(equally, 1);
+  EXPECT_LT(bySigma, 0.02 * equally);
+}
+
 TEST(HandEyeCalibration, Covariance_IsHonest)
 {
   for (const auto& [named, nearestMm, furthestMm] : { std::tuple(NamedCamera{ "webcam", webcam() }, 150.0, 700.0),

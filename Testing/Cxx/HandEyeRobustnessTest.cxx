@@ -114,6 +114,20 @@ TEST(HandEyeRobustness, ThirtyPercentGrossOutliers_AreRejectedAndListed)
   }
 }
 
+TEST(HandEyeRobustness, StylusBumpedByFourMillimetres_IsRejected)
+{
+  for (unsigned seed = 0; seed < 8; ++seed)
+  {
+    Random random(400 + seed);
+    Samples samples = simulateSamples(webcam(), typicalMarkerToCamera(), 14, typicalCapture(), random);
+    const Eigen::Vector3d ray_Marker = typicalMarkerToCamera().linear().transpose() * samples[5].ray_Eye;
+    samples[5].tip_Marker += 4 * ray_Marker.unitOrthogonal();
+    const HandEyeCalibrationResult result = calibrateHandEye(samples, { { webcam() } });
+    ASSERT_EQ(result.status, Status::Ok) << result.message;
+    EXPECT_EQ(rejectedOf(result), (std::set<int>{ 5 })) << "seed " << seed;
+  }
+}
+
 TEST(HandEyeRobustness, RejectionTurnedOff_KeepsEverySample)
 {
   Random random(3);

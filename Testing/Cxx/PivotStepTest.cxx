@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace handeye;
 using namespace handeye::test;
 using handeye::io::test::expectFileError;

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "HandEyeCalibration.h"
+
+#include <vector>
+
+namespace handeye
+{
+
+/// What the parts of the hand-eye calibration share: samples as points and lines, their residuals and what is expected of them. Internal.
+
+using HandEyeSamples = std::vector<HandEyeSample>;
+using Eyes = std::vector<Eye>;
+
+/// A sample as point and line, the line in the head's camera frame.
+PointLinePair toPair(const HandEyeSample& sample, const Eyes& eyes, double weight);
+
+/// Between the projected tip and the segmented ball; very large for a tip behind the camera or outside of the lens model.
+double residualPx(const HandEyeSample& sample, const Eyes& eyes, const Eigen::Isometry3d& markerToCamera);
+
+/// Of the tip from its eye.
+double distanceMm(const HandEyeSample& sample, const Eyes& eyes, const Eigen::Isometry3d& markerToCamera);
+
+/// The expected error (one standard deviation per axis) of a sample at this distance: at the ball (mm), and in the image (px).
+double expectedMm(const HandEyeSample& sample, double distance, const Eyes& eyes, const HandEyeCalibrationOptions& options);
+double expectedPx(const HandEyeSample& sample, double distance, const Eyes& eyes, const HandEyeCalibrationOptions& options);
+
+/// Residuals (px) of all samples in multiples of what is expected of them.
+std::vector<double> normalizedResiduals(const HandEyeSamples& samples, const Eyes& eyes, const Eigen::Isometry3d& markerToCamera,
+  const HandEyeCalibrationOptions& options);
+
+/// The solution of some of the samples; weights follow the distances that the solution itself gives.
+/// @param weightRounds how often the weights are renewed; 0 for equal weights
+PointLineResult solveHandEye(const HandEyeSamples& samples, const std::vector<int>& subset, const Eyes& eyes,
+  const HandEyeCalibrationOptions& options, PointLineOptions::Method method, int weightRounds);
+
+}  // namespace handeye
