@@ -27,10 +27,12 @@ struct ValidationStepResult;
 
 /// The way from recordings to an overlay, as the module's panel walks it: stylus, camera, validation, phantom.
 ///
-/// The logic holds the inputs, runs the steps and keeps their results. A result changes through a step only, and only for a usable one:
+/// The logic holds the inputs, runs the steps and keeps their results. A result changes through a step only, and only for a usable
+/// one:
 /// a step that fails or is cancelled leaves the result before it as it is, returns false, says why in GetLastMessage() and fires
 /// StepFailedEvent. Every step, loading and saving included, fires one event when it ends: the one named with it, or
-/// StepFailedEvent; a successful saving fires none. No step throws. There is no result before there is one: matrices and structures are
+/// StepFailedEvent; a successful saving fires none. No step throws. There is no result before there is one: matrices and structures
+/// are
 /// null then, numbers NaN; never the identity and never zero.
 ///
 /// Frames are those of the recordings and files (mm; see CameraModel for `Camera`):
@@ -58,7 +60,8 @@ public:
     ProgressEvent            ///< between frames; its call data is a double, 0 to 1
   };
 
-  // Inputs -----------------------------------------------------------------------------------------------------------------------------
+  // Inputs
+  // -----------------------------------------------------------------------------------------------------------------------------
 
   /// The lens: a file of any kind that io::readCameraFile() knows.
   vtkSetMacro(CameraFile, std::string);
@@ -96,7 +99,8 @@ public:
   /// @throws std::invalid_argument for numbers that are not finite
   void SetStylusTip(double x, double y, double z);
 
-  // Steps: true if the result is usable --------------------------------------------------------------------------------------------------
+  // Steps: true if the result is usable
+  // --------------------------------------------------------------------------------------------------
 
   /// The tip from a recording of the stylus turning about it. Fires StylusCalibratedEvent.
   bool CalibrateStylus(const std::string& recording);
@@ -110,7 +114,8 @@ public:
   bool SetSampleExcluded(int frame, bool excluded);
   bool GetSampleExcluded(int frame);
 
-  /// Calibrates from the evaluated capture without the excluded samples, with the solver as set now; the ball is not looked for again.
+  /// Calibrates from the evaluated capture without the excluded samples, with the solver as set now; the ball is not looked for
+  /// again.
   /// Fires CameraCalibratedEvent.
   bool Recalibrate();
 
@@ -120,7 +125,8 @@ public:
   /// modelToPhantom from landmarks on the model and the same ones as touched, in the same order, mm. Fires PhantomRegisteredEvent.
   bool RegisterPhantom(vtkPoints* points_Model, vtkPoints* points_Phantom);
 
-  /// What the steps or the command line wrote, with the event of the step. LoadCalibration() takes over the names of the transforms.
+  /// What the steps or the command line wrote, with the event of the step. LoadCalibration() takes over the names of the
+  /// transforms.
   bool LoadStylus(const std::string& file);
   bool LoadCalibration(const std::string& file);
   bool LoadPhantomRegistration(const std::string& file);
@@ -140,7 +146,8 @@ public:
   /// What was odd about the files that it read: sentences for the user.
   const std::vector<std::string>& GetLastWarnings() const;
 
-  // Results ------------------------------------------------------------------------------------------------------------------------------
+  // Results
+  // ------------------------------------------------------------------------------------------------------------------------------
 
   /// mm. @return false, and `tip_Stylus` as it was, while there is none
   bool GetStylusTip(double tip_Stylus[3]);
@@ -167,7 +174,8 @@ public:
 
   double GetPhantomRmsMm();
 
-  /// One row for each frame of the evaluated capture: `frame`, `status`, `used`, `excluded`, `residualPx`, `residualMm`, `distanceMm`,
+  /// One row for each frame of the evaluated capture: `frame`, `status`, `used`, `excluded`, `residualPx`, `residualMm`,
+  /// `distanceMm`,
   /// `ballXPx`, `ballYPx`, `message`. `excluded` is what Recalibrate() will do, the others are what was done. Numbers that a
   /// frame does not have are NaN. No rows after LoadCalibration().
   vtkTable* GetSampleTable();
@@ -197,7 +205,8 @@ public:
   ///
   /// @param modelToCamera receives the transform; left as it is where there is none
   /// @param reason receives, if given, a sentence that says why there is none
-  /// @return false without a calibration or a registration, and for a matrix that is null or not rigid. No event, no change of state.
+  /// @return false without a calibration or a registration, and for a matrix that is null or not rigid. No event, no change of
+  /// state.
   bool ComputeModelToCamera(
     vtkMatrix4x4* markerToTracker, vtkMatrix4x4* phantomToTracker, vtkMatrix4x4* modelToCamera, std::string* reason = nullptr);
 

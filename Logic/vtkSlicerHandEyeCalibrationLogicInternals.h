@@ -28,7 +28,8 @@ struct vtkSlicerHandEyeCalibrationLogic::StepEnd
   std::string message;
 };
 
-/// Private to vtkSlicerHandEyeCalibrationLogic: its results. What is kept is usable; `document` is what the result's file holds, for a
+/// Private to vtkSlicerHandEyeCalibrationLogic: its results. What is kept is usable; `document` is what the result's file holds,
+/// for a
 /// result of a step as for a loaded one; `step` is empty for a loaded one.
 class vtkSlicerHandEyeCalibrationLogic::Internals
 {
@@ -95,7 +96,8 @@ public:
     this->LastWarnings.insert(this->LastWarnings.end(), warnings.begin(), warnings.end());
   }
 
-  /// Calibrates from the capture without its excluded samples; the capture becomes the evaluated one, the result the calibration if it is
+  /// Calibrates from the capture without its excluded samples; the capture becomes the evaluated one, the result the calibration if
+  /// it is
   /// usable.
   StepEnd Calibrate(EvaluatedCapture capture, SolverMethods method);
 

@@ -31,8 +31,8 @@ cv::Mat toHsv(const cv::Mat& image);
 /// 255 where a pixel can belong to the ball by its own colour, 0 elsewhere.
 cv::Mat ballColorMask(const cv::Mat& hsv, const BallColor& color);
 
-/// The same hue with rising demands on saturation and chroma. What surrounds the ball may be red as well (tissue, skin, wood): at one of these
-/// levels the ball stands alone.
+/// The same hue with rising demands on saturation and chroma. What surrounds the ball may be red as well (tissue, skin, wood): at
+/// one of these levels the ball stands alone.
 std::vector<BallColor> colorLevels(const BallColor& color);
 
 /// 255 where a pixel can belong to a highlight on the ball: bright and pale.

@@ -30,8 +30,8 @@ constexpr std::size_t FewestEdges = 12;
 /// An edge point further than this many sigmas, but at least this many px, from the outline is not the ball's.
 constexpr double SupportSigmas = 4;
 constexpr double SupportPx = 0.75;
-/// A scatter (px) of the edge points above this is not the outline of a ball: balls have 0.1 to 0.2 px, other things 0.3 and more. On the way
-/// to the final outline more is allowed.
+/// A scatter (px) of the edge points above this is not the outline of a ball: balls have 0.1 to 0.2 px, other things 0.3 and more.
+/// On the way to the final outline more is allowed.
 constexpr double LargestSigmaPx = 0.4;
 constexpr double LargestSigmaOnTheWayPx = 2.5;
 /// A scatter of this much halves the trust in an outline.
@@ -39,14 +39,15 @@ constexpr double HalfTrustSigmaPx = 0.4;
 constexpr int OutlineCorners = 90;
 /// A candidate this close to a ball that was found, as a share of its size, is that ball.
 constexpr double AlreadyKnown = 0.1;
-/// Largest share of the outline, of what is seen of it, across which the ball's colour goes on without an edge: a piece of something
-/// longer is not a ball.
+/// Largest share of the outline, of what is seen of it, across which the ball's colour goes on without an edge: a piece of
+/// something longer is not a ball.
 constexpr double LargestContinuedShare = 0.35;
 /// The colour is looked at this far inside and outside of the outline: a share of the radius, within limits in px.
 constexpr double AcrossShare = 0.25;
 constexpr double NearestAcrossPx = 2;
 constexpr double FurthestAcrossPx = 4;
-/// Edge points this close to each other share what shading and reflections do to them (rad along the outline): they do not average out.
+/// Edge points this close to each other share what shading and reflections do to them (rad along the outline): they do not average
+/// out.
 constexpr double CorrelationAngle = double(EIGEN_PI);
 /// Least share of the outline's inside that has the colour itself, highlights not counted.
 constexpr double LeastColor = 0.4;

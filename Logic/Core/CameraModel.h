@@ -22,8 +22,8 @@ namespace handeye
 ///
 /// The coefficients come in OpenCV's order k1 k2 p1 p2 [k3 [k4 k5 k6 [s1 s2 s3 s4 [tauX tauY]]]]: 0, 4, 5, 8, 12 or 14 of them.
 ///
-/// A lens polynomial is fitted inside the image and folds back on itself somewhere outside of it; a point beyond the fold would be drawn
-/// where it is not. project() and unproject() therefore know how far the model can be believed (maximumRadius()) and say so.
+/// A lens polynomial is fitted inside the image and folds back on itself somewhere outside of it; a point beyond the fold would be
+/// drawn where it is not. project() and unproject() therefore know how far the model can be believed (maximumRadius()) and say so.
 ///
 /// Immutable after construction, hence safe to share between threads.
 /// Reference: OpenCV, camera calibration and 3D reconstruction; D. C. Brown, "Close-range camera calibration", 1971.

@@ -35,8 +35,8 @@ struct HandEyeSample
 struct HandEyeCalibrationOptions
 {
   PointLineOptions::Method method = PointLineOptions::Method::Global;
-  /// What the tracker (mm, at the tip) and the segmentation (px, of a sample that does not say itself) contribute to a sample's error; sets
-  /// the samples' weights.
+  /// What the tracker (mm, at the tip) and the segmentation (px, of a sample that does not say itself) contribute to a sample's
+  /// error; sets the samples' weights.
   double trackingSigmaMm = 0.35;
   double segmentationSigmaPx = 0.25;
   /// Fewer used samples than this give no calibration.
@@ -47,7 +47,8 @@ struct HandEyeCalibrationOptions
   double rejectionFactor = 4.5;
   /// Largest share of samples that may disagree.
   double maximumRejectedShare = 0.5;
-  /// Largest scatter of the used samples in multiples of what is expected of them; more is no calibration, whatever its covariance says.
+  /// Largest scatter of the used samples in multiples of what is expected of them; more is no calibration, whatever its covariance
+  /// says.
   double maximumMisfit = 8;
   /// Largest mean predicted projection error (px) over the working volume of a result that is called usable.
   double maximumPredictedErrorPx = 20;
@@ -90,7 +91,8 @@ struct HandEyeCalibrationResult
   Status status = Status::TooFewSamples;
   std::string message;                                               ///< for a person, verdict first
   Eigen::Isometry3d markerToCamera = Eigen::Isometry3d::Identity();  ///< p_Camera = markerToCamera * p_Marker; only if usable
-  /// Of (rotation vector rad, translation mm) acting from the left in the camera frame: markerToCamera -> (exp(w), v) * markerToCamera.
+  /// Of (rotation vector rad, translation mm) acting from the left in the camera frame: markerToCamera -> (exp(w), v) *
+  /// markerToCamera.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<Sample> samples;  ///< one per sample given
   int usedCount = 0;
@@ -103,11 +105,12 @@ struct HandEyeCalibrationResult
   bool isUsable() const { return status == Status::Ok; }
 };
 
-/// Finds where the camera sits relative to its marker: points (the tracked ball) must lie on lines (the rays on which the eyes see it).
+/// Finds where the camera sits relative to its marker: points (the tracked ball) must lie on lines (the rays on which the eyes see
+/// it).
 ///
-/// Samples that disagree are found by consensus: each set of four (a few hundred of them if there are more) is registered, and the one that
-/// most of the others agree with decides who stays. The rest is solved by the chosen method; `Global` weights each sample by
-/// 1 / (sigma_mm^2 + (sigma_px distance / f)^2), the tracker acting in mm and the segmentation in px.
+/// Samples that disagree are found by consensus: each set of four (a few hundred of them if there are more) is registered, and the
+/// one that most of the others agree with decides who stays. The rest is solved by the chosen method; `Global` weights each sample
+/// by 1 / (sigma_mm^2 + (sigma_px distance / f)^2), the tracker acting in mm and the segmentation in px.
 ///
 /// @param eyes one camera, or two of a stereo head with a known relation
 /// @throws std::invalid_argument if a sample names an eye that is not there or holds a number that is not finite
@@ -116,7 +119,8 @@ struct HandEyeCalibrationResult
 [[nodiscard]] HandEyeCalibrationResult calibrateHandEye(
   const std::vector<HandEyeSample>& samples, const std::vector<Eye>& eyes, const HandEyeCalibrationOptions& options = {});
 
-/// The projection error that a covariance predicts over an eye's image between two depths (mm), on a grid of 9 x 7 pixels and 5 depths.
+/// The projection error that a covariance predicts over an eye's image between two depths (mm), on a grid of 9 x 7 pixels and 5
+/// depths.
 PredictedError predictProjectionError(
   const Eigen::Matrix<double, 6, 6>& covariance, const Eye& eye, double nearestMm, double furthestMm);
 

@@ -9,7 +9,8 @@
 namespace handeye
 {
 
-/// What the parts of the hand-eye calibration share: samples as points and lines, their residuals and what is expected of them. Internal.
+/// What the parts of the hand-eye calibration share: samples as points and lines, their residuals and what is expected of them.
+/// Internal.
 
 using HandEyeSamples = std::vector<HandEyeSample>;
 using Eyes = std::vector<Eye>;

@@ -7,8 +7,8 @@
 namespace handeye
 {
 
-/// The covariance from the noise that is expected of each used sample, scaled by the scatter that was found if that is more; stored in the
-/// result, whose samples must be filled in. Internal.
+/// The covariance from the noise that is expected of each used sample, scaled by the scatter that was found if that is more; stored
+/// in the result, whose samples must be filled in. Internal.
 /// @return that scatter in multiples of what was expected
 double estimateCovariance(
   const HandEyeSamples& samples, const Eyes& eyes, const HandEyeCalibrationOptions& options, HandEyeCalibrationResult& result);

@@ -11,9 +11,9 @@ namespace handeye
 
 /// The ball's segmentation as the paper publishes it: HSV threshold for red, Gaussian and median smoothing, Hough circle.
 ///
-/// The paper names the steps but not all numbers; where it is silent these are the values that OpenCV's own example of the transform uses.
-/// Kept to compare with, not to be used: the circle's centre is not the ball's centre, and in a cluttered image the strongest circle need
-/// not be the ball.
+/// The paper names the steps but not all numbers; where it is silent these are the values that OpenCV's own example of the
+/// transform uses. Kept to compare with, not to be used: the circle's centre is not the ball's centre, and in a cluttered image the
+/// strongest circle need not be the ball.
 struct HoughBallOptions
 {
   double hueToleranceDeg = 20;      ///< about red (0 deg)

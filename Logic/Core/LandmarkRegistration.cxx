@@ -20,7 +20,8 @@ using Status = LandmarkRegistrationResult::Status;
 
 /// The second largest extent of a point set must be this share of the largest for the points not to be on a line.
 constexpr double CollinearRatio = 0.02;
-/// A mirrored fit that is better than the proper one by this factor, and a proper one that is worse than this, give a mirror image away.
+/// A mirrored fit that is better than the proper one by this factor, and a proper one that is worse than this, give a mirror image
+/// away.
 constexpr double MirrorFactor = 4;
 constexpr double MirrorRmsMm = 3;
 

@@ -30,7 +30,8 @@ struct LandmarkRegistrationResult
   bool isUsable() const { return status == Status::Ok; }
 };
 
-/// Registers paired landmarks: the rotation and translation that bring the model's points onto the touched ones with the least squares.
+/// Registers paired landmarks: the rotation and translation that bring the model's points onto the touched ones with the least
+/// squares.
 ///
 /// @param points_Model,points_Phantom the same landmarks in the same order, mm
 /// @throws std::invalid_argument if the counts differ or a number is not finite

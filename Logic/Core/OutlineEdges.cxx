@@ -46,7 +46,8 @@ struct Profile
 class ProfileReader
 {
 public:
-  /// @param anchored the expected outline is good to a pixel: the light is compared on either side of it. Otherwise on either side of the
+  /// @param anchored the expected outline is good to a pixel: the light is compared on either side of it. Otherwise on either side
+  ///        of the
   ///        steepest fall, which a shadow on the ball may draw inwards.
   ProfileReader(const LinearLightImage& image, double reachPx, double referencePx, bool anchored)
     : image_(image)
@@ -112,9 +113,10 @@ private:
     return where * StepPx;
   }
 
-  /// The direction of colour along which inside and outside are told apart, scaled so that they are 1 apart: Fisher's discriminant for light
-  /// that varies by noise and, on either side, along its own colour by shading. A ball that darkens towards its limb keeps its colour; so
-  /// where the background differs in colour its brightness hardly counts, and where it does not, brightness is what there is.
+  /// The direction of colour along which inside and outside are told apart, scaled so that they are 1 apart: Fisher's discriminant
+  /// for light that varies by noise and, on either side, along its own colour by shading. A ball that darkens towards its limb
+  /// keeps its colour; so where the background differs in colour its brightness hardly counts, and where it does not, brightness is
+  /// what there is.
   static Eigen::Vector3f discriminant(const Eigen::Vector3f& inside, const Eigen::Vector3f& outside)
   {
     const Eigen::Matrix3f variation = LightNoise * LightNoise * Eigen::Matrix3f::Identity() +

@@ -16,8 +16,8 @@ namespace handeye
 
 /// An image sampled in linear light.
 ///
-/// Cameras encode light with a gamma; an edge sits where the linear light is half way, not where the pixel value is. The curve undone here is
-/// sRGB's, which consumer and surgical cameras follow closely.
+/// Cameras encode light with a gamma; an edge sits where the linear light is half way, not where the pixel value is. The curve
+/// undone here is sRGB's, which consumer and surgical cameras follow closely.
 class LinearLightImage
 {
 public:
@@ -50,8 +50,8 @@ struct OutlineEdges
 
 /// Looks for the ball's edge along the normals of an expected outline.
 ///
-/// The light along a normal is projected onto the difference between the light just inside and just outside, so that any pair of colours
-/// makes a profile from 1 to 0; the edge is where the area under it says, which uses every sample.
+/// The light along a normal is projected onto the difference between the light just inside and just outside, so that any pair of
+/// colours makes a profile from 1 to 0; the edge is where the area under it says, which uses every sample.
 ///
 /// @param expected where the outline is thought to be
 /// @param reachPx how far from it an edge is looked for

@@ -59,12 +59,12 @@ struct PivotCalibrationResult
 
 /// Finds the tip of a stylus that turns about it.
 ///
-/// Frames: stylusToTracker poses, mm. With the tip at rest, stylusToTracker_i * tip_Stylus = pivot_Tracker for every pose i, six unknowns
-/// in 3 n equations. Poses that disagree are found by sample consensus on triples of poses (deterministic) and thrown out by their
-/// residual against the noise of those that stay; the rest is solved by least squares.
+/// Frames: stylusToTracker poses, mm. With the tip at rest, stylusToTracker_i * tip_Stylus = pivot_Tracker for every pose i, six
+/// unknowns in 3 n equations. Poses that disagree are found by sample consensus on triples of poses (deterministic) and thrown out
+/// by their residual against the noise of those that stay; the rest is solved by least squares.
 ///
-/// The rotation is judged by how much each direction of the tip was moved by it, so that spinning about one axis does not pass, whatever
-/// its angle.
+/// The rotation is judged by how much each direction of the tip was moved by it, so that spinning about one axis does not pass,
+/// whatever its angle.
 ///
 /// @param stylusToTracker poses of one stylus
 /// @throws std::invalid_argument if a pose is not finite or the options do not check

@@ -120,13 +120,14 @@ Eigen::Matrix3d PointLineQuadraticForm::descend(Eigen::Matrix3d rotation, int& s
       tangent.col(k) = vec(generators[k] * rotation);
     }
     const Eigen::Vector3d gradient = tangent.transpose() * slope;
-    // d2 exp(w) / dwj dwk at 0 is (Gj Gk + Gk Gj) / 2, and <slope, A R> = <slope R^T, A>: with M = slope R^T this sums to sym(M) - tr(M) I.
+    // d2 exp(w) / dwj dwk at 0 is (Gj Gk + Gk Gj) / 2, and <slope, A R> = <slope R^T, A>: with M = slope R^T this sums to sym(M) -
+    // tr(M) I.
     Eigen::Matrix3d hessian = tangent.transpose() * quadratic_ * tangent + (slopeMatrix + slopeMatrix.transpose()) / 2 -
       slopeMatrix.trace() * Eigen::Matrix3d::Identity();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spectrum(hessian);
     const double lowest = spectrum.eigenvalues()(0), highest = spectrum.eigenvalues().cwiseAbs().maxCoeff();
-    // Where the cost bends downwards its size still gives the length of a step, downhill. A floor much higher than this would slow down
-    // the descent on points that are nearly on one line.
+    // Where the cost bends downwards its size still gives the length of a step, downhill. A floor much higher than this would slow
+    // down the descent on points that are nearly on one line.
     const Eigen::Array3d curvature = spectrum.eigenvalues().array().abs().max(1e-12 * highest) + damping * highest + 1e-300;
     Eigen::Vector3d turn =
       -spectrum.eigenvectors() * ((spectrum.eigenvectors().transpose() * gradient).array() / curvature).matrix();

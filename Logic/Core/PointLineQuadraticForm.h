@@ -25,7 +25,8 @@ public:
   /// The translation that is best for this rotation.
   Eigen::Vector3d translation(const Eigen::Matrix3d& rotation) const;
 
-  /// The local minimum that Newton's method reaches from a rotation (damped where the cost is not convex). Adds its steps to `steps`.
+  /// The local minimum that Newton's method reaches from a rotation (damped where the cost is not convex). Adds its steps to
+  /// `steps`.
   Eigen::Matrix3d descend(Eigen::Matrix3d rotation, int& steps) const;
 
 private:

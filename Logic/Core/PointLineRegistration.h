@@ -29,8 +29,8 @@ struct PointLineOptions
   };
 
   Method method = Method::Global;
-  /// The lines are rays: their points lie at origin + s * direction with s > 0. A minimum that has more points behind than in front of
-  /// the origins is a mirrored one and is not taken, however small its cost.
+  /// The lines are rays: their points lie at origin + s * direction with s > 0. A minimum that has more points behind than in front
+  /// of the origins is a mirrored one and is not taken, however small its cost.
   bool linesAreRays = false;
   /// Cap of the `Procrustes` iteration.
   int maximumIterations = 20000;
@@ -70,19 +70,20 @@ struct PointLineResult
 /// Finds the rotation R and translation t that bring points onto lines: the minimum of  sum_i w_i |V_i (R x_i + t - o_i)|^2  with
 /// V_i = I - d_i d_i^T. The lines need not meet in one point.
 ///
-/// `Global` eliminates t, which leaves a quadratic form in the nine entries of R whose size does not depend on the number of points,
-/// and descends on it by Newton's method from starts all over SO(3); the lowest minimum wins, for rays the lowest one whose points lie in front.
-/// `Procrustes` is the iteration of the paper, which starts without a guess and may end in the mirrored minimum.
+/// `Global` eliminates t, which leaves a quadratic form in the nine entries of R whose size does not depend on the number of
+/// points, and descends on it by Newton's method from starts all over SO(3); the lowest minimum wins, for rays the lowest one whose
+/// points lie in front. `Procrustes` is the iteration of the paper, which starts without a guess and may end in the mirrored
+/// minimum.
 ///
 /// @param pairs at least 4
-/// @throws std::invalid_argument if a number is not finite, a direction is zero, a weight is not positive or the options do not check
-/// Thread-safe.
-/// References: Morgan et al., Int J CARS 12:1141 (2017), appendix; Terzakis and Lourakis, "A consistently fast and globally optimal
-/// solution to the perspective-n-point problem", ECCV 2020, eq. 8-12 for the quadratic form of rays through one centre.
+/// @throws std::invalid_argument if a number is not finite, a direction is zero, a weight is not positive or the options do not
+///        check Thread-safe. References: Morgan et al., Int J CARS 12:1141 (2017), appendix; Terzakis and Lourakis, "A consistently
+///        fast and globally optimal solution to the perspective-n-point problem", ECCV 2020, eq. 8-12 for the quadratic form of
+///        rays through one centre.
 [[nodiscard]] PointLineResult registerPointsToLines(const std::vector<PointLinePair>& pairs, const PointLineOptions& options = {});
 
-/// Second derivative (halved) of the cost at a solution by (rotation vector, translation), both acting from the left in the frame `Lines`:
-/// R -> exp(w) R, t -> t + v.
+/// Second derivative (halved) of the cost at a solution by (rotation vector, translation), both acting from the left in the frame
+/// `Lines`: R -> exp(w) R, t -> t + v.
 Eigen::Matrix<double, 6, 6> informationMatrix(const std::vector<PointLinePair>& pairs, const Eigen::Isometry3d& pointsToLines);
 
 /// "ok", "too_few_pairs", ...: the word that result files use.

@@ -13,7 +13,8 @@ namespace handeye
 /// Rigid transforms are Eigen::Isometry3d, named `aToB` for p_B = aToB * p_A, translations in mm.
 
 /// A 4x4 matrix as a rigid transform: the nearest rotation (in the Frobenius sense) with the matrix' translation.
-/// @return nothing if a number is not finite, the last row is not 0 0 0 1, an entry of R^T R differs from the identity's by more than
+/// @return nothing if a number is not finite, the last row is not 0 0 0 1, an entry of R^T R differs from the identity's by more
+///        than
 ///         `tolerance`, or the matrix mirrors (det R < 0)
 std::optional<Eigen::Isometry3d> toRigid(const Eigen::Matrix4d& matrix, double tolerance = 1e-3);
 

@@ -13,9 +13,9 @@ namespace handeye
 
 /// The cone of rays that touch a sphere.
 ///
-/// A sphere does not project to a circle, and the centre of its outline is not the projection of its centre. On the unit sphere of rays,
-/// however, the outline lies in a plane: every ray u that touches the ball makes the same angle alpha with the ray c to the ball's centre,
-/// hence u . n = 1 with n = c / cos(alpha). The fit is linear in n, and the lens enters exactly, through the rays.
+/// A sphere does not project to a circle, and the centre of its outline is not the projection of its centre. On the unit sphere of
+/// rays, however, the outline lies in a plane: every ray u that touches the ball makes the same angle alpha with the ray c to the
+/// ball's centre, hence u . n = 1 with n = c / cos(alpha). The fit is linear in n, and the lens enters exactly, through the rays.
 struct SphereCone
 {
   Eigen::Vector3d axis_Camera = Eigen::Vector3d::UnitZ();  ///< unit ray to the ball's centre
@@ -24,8 +24,8 @@ struct SphereCone
   /// Distance (mm) of the centre of a ball of this radius (mm).
   double distance(double radiusMm) const;
 
-  /// `count` points (px) of the outline and their outward unit normals in the image, evenly spaced about the axis. Points that the lens model
-  /// cannot place are left out.
+  /// `count` points (px) of the outline and their outward unit normals in the image, evenly spaced about the axis. Points that the
+  /// lens model cannot place are left out.
   struct Outline
   {
     std::vector<Eigen::Vector2d> points_Image;
@@ -34,8 +34,8 @@ struct SphereCone
   Outline outline(const CameraModel& camera, int count) const;
 };
 
-/// The cone through three rays (unit length). @return a half angle of 0 if they lie on one great circle or the cone is not narrower than
-/// a half space.
+/// The cone through three rays (unit length). @return a half angle of 0 if they lie on one great circle or the cone is not narrower
+/// than a half space.
 SphereCone coneThrough(const Eigen::Vector3d& a_Camera, const Eigen::Vector3d& b_Camera, const Eigen::Vector3d& c_Camera);
 
 struct SphereConeFit
@@ -48,7 +48,8 @@ struct SphereConeFit
   Eigen::Matrix3d axisCovariance = Eigen::Matrix3d::Zero();  ///< of axis_Camera (unit ray), rank 2
 };
 
-/// Fits the cone to edge points of the outline: the linear fit, repeated with Tukey's weights, then Gauss-Newton on the distances in px.
+/// Fits the cone to edge points of the outline: the linear fit, repeated with Tukey's weights, then Gauss-Newton on the distances
+/// in px.
 ///
 /// @param rays_Camera unit rays of the edge points, at least 6
 /// @param camera gives the pixels per radian at each ray

@@ -9,7 +9,8 @@
 class vtkMRMLNode;
 class vtkMRMLScene;
 
-/// Stands in for 3D Slicer's class of this name in a build without Slicer: what our logic overrides and calls, with Slicer 5.0's signatures.
+/// Stands in for 3D Slicer's class of this name in a build without Slicer: what our logic overrides and calls, with Slicer 5.0's
+/// signatures.
 ///
 /// Nothing here looks into a scene, and no node is ever reported: without Slicer there is no MRML. The scene is a pointer that is
 /// handed on; it is not kept alive and may be null.
@@ -22,8 +23,8 @@ public:
 
   vtkMRMLScene* GetMRMLScene() const;
 
-  /// In this order: UnobserveMRMLScene() if there was a scene, SetMRMLSceneInternal(), and, if there is a scene now, ObserveMRMLScene().
-  /// Nothing happens for the scene that is set already.
+  /// In this order: UnobserveMRMLScene() if there was a scene, SetMRMLSceneInternal(), and, if there is a scene now,
+  /// ObserveMRMLScene(). Nothing happens for the scene that is set already.
   void SetMRMLScene(vtkMRMLScene* newScene);
 
 protected:

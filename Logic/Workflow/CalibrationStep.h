@@ -57,8 +57,8 @@ struct EyeCapture
 /// Calibrates one camera from an evaluated capture.
 [[nodiscard]] CalibrationStepResult calibrateCapture(const EyeCapture& capture, const HandEyeCalibrationOptions& options = {});
 
-/// Calibrates a stereo head. With the eyes' relation known (p_RightCamera = leftToRight * p_LeftCamera, mm) all samples of both eyes are one
-/// registration; without, each eye is calibrated on its own.
+/// Calibrates a stereo head. With the eyes' relation known (p_RightCamera = leftToRight * p_LeftCamera, mm) all samples of both
+/// eyes are one registration; without, each eye is calibrated on its own.
 [[nodiscard]] CalibrationStepResult calibrateStereoCapture(const EyeCapture& left, const EyeCapture& right,
   const std::optional<Eigen::Isometry3d>& leftToRight, const HandEyeCalibrationOptions& options = {});
 

@@ -19,7 +19,8 @@ struct OverlayTransforms
   Eigen::Isometry3d modelToPhantom = Eigen::Isometry3d::Identity();  ///< p_Phantom = modelToPhantom * p_Model
 };
 
-/// modelToCamera = markerToCamera * inverse(markerToTracker) * phantomToTracker * modelToPhantom;  p_Camera = modelToCamera * p_Model, mm.
+/// modelToCamera = markerToCamera * inverse(markerToTracker) * phantomToTracker * modelToPhantom;  p_Camera = modelToCamera *
+/// p_Model, mm.
 Eigen::Isometry3d toModelToCamera(
   const OverlayTransforms& transforms, const Eigen::Isometry3d& markerToTracker, const Eigen::Isometry3d& phantomToTracker);
 

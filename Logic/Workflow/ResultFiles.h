@@ -16,9 +16,9 @@
 namespace handeye
 {
 
-/// The result files, keys as other programs rely on them (millimetres, pixels; matrices as lists of rows). Every object has `schema`
-/// (the kind of file and its version), `status` and `message`. A result that is not usable carries no transform and no tip: there is no
-/// identity to mistake for an answer.
+/// The result files, keys as other programs rely on them (millimetres, pixels; matrices as lists of rows). Every object has
+/// `schema` (the kind of file and its version), `status` and `message`. A result that is not usable carries no transform and no
+/// tip: there is no identity to mistake for an answer.
 
 nlohmann::json stylusJson(const PivotStepResult& result);                ///< stylus.json
 nlohmann::json calibrationJson(const CalibrationStepResult& result);     ///< calibration.json

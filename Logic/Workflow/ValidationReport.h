@@ -10,8 +10,8 @@
 namespace handeye
 {
 
-/// Writes what a validation is judged by with the eyes: `report.html` with the verdict, the figures and the plot of error against distance,
-/// and one picture a frame with the segmented (green) and the projected (yellow) centre drawn on it.
+/// Writes what a validation is judged by with the eyes: `report.html` with the verdict, the figures and the plot of error against
+/// distance, and one picture a frame with the segmented (green) and the projected (yellow) centre drawn on it.
 ///
 /// @param folder made if it is not there
 /// @throws io::FileError where something cannot be written

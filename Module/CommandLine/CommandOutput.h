@@ -13,8 +13,8 @@
 namespace handeye::cli
 {
 
-/// What all commands share: `--json`, `-o FILE`, and where text goes. With --json the result is one JSON object on standard output and all
-/// messages go to standard error; otherwise the messages are the output.
+/// What all commands share: `--json`, `-o FILE`, and where text goes. With --json the result is one JSON object on standard output
+/// and all messages go to standard error; otherwise the messages are the output.
 struct CommandOutput
 {
   bool json = false;

@@ -54,21 +54,22 @@ vtkSmartPointer<vtkImageData> sampleShape()
   grid->SetDimensions(size);
   grid->AllocateScalars(VTK_FLOAT, 1);
   auto* values = static_cast<float*>(grid->GetScalarPointer());
-  vtkSMPTools::For(0, size[2], [&](vtkIdType begin, vtkIdType end)
-  {
-    for (vtkIdType k = begin; k < end; ++k)
+  vtkSMPTools::For(0, size[2],
+    [&](vtkIdType begin, vtkIdType end)
     {
-      float* value = values + k * size[0] * size[1];
-      for (int j = 0; j < size[1]; ++j)
+      for (vtkIdType k = begin; k < end; ++k)
       {
-        for (int i = 0; i < size[0]; ++i)
+        float* value = values + k * size[0] * size[1];
+        for (int j = 0; j < size[1]; ++j)
         {
-          const vertebra::Vec point{ low[0] + i * SpacingMm, low[1] + j * SpacingMm, low[2] + k * SpacingMm };
-          *value++ = static_cast<float>(vertebra::vertebra(point));
+          for (int i = 0; i < size[0]; ++i)
+          {
+            const vertebra::Vec point{ low[0] + i * SpacingMm, low[1] + j * SpacingMm, low[2] + k * SpacingMm };
+            *value++ = static_cast<float>(vertebra::vertebra(point));
+          }
         }
       }
-    }
-  });
+    });
   return grid;
 }
 
@@ -168,8 +169,8 @@ void checkFans(vtkPolyData* mesh)
       mesh->GetCellEdgeNeighbors(cell, point, next, neighbours);
       cell = neighbours->GetId(0);
     }
-    require(static_cast<vtkIdType>(fan.size()) == around->GetNumberOfIds(),
-      "The mesh touches itself in a point: it is not manifold.");
+    require(
+      static_cast<vtkIdType>(fan.size()) == around->GetNumberOfIds(), "The mesh touches itself in a point: it is not manifold.");
   }
 }
 
@@ -234,8 +235,8 @@ void writeMesh(vtkPolyData* mesh, const std::string& fileName)
 }
 
 /// The vertex that lies farthest in a direction among those that `inRegion` admits.
-vertebra::Vec extremeVertex(vtkPolyData* mesh, const vertebra::Vec& direction,
-  const std::function<bool(const vertebra::Vec&)>& inRegion)
+vertebra::Vec extremeVertex(
+  vtkPolyData* mesh, const vertebra::Vec& direction, const std::function<bool(const vertebra::Vec&)>& inRegion)
 {
   vertebra::Vec best;
   double farthest = -std::numeric_limits<double>::infinity();
@@ -283,7 +284,7 @@ void writeLandmarks(vtkPolyData* mesh, const std::string& fileName)
   }
   require(file.flush().good(), "Cannot write " + fileName + ".");
 }
-} // namespace
+}  // namespace
 
 int main(int argc, char* argv[])
 {
@@ -300,8 +301,8 @@ int main(int argc, char* argv[])
     writeMesh(mesh, folder + "/Vertebra.ply");
     writeLandmarks(mesh, folder + "/VertebraLandmarks.txt");
     const double* bounds = mesh->GetBounds();
-    std::cout << mesh->GetNumberOfPolys() << " triangles, " << mesh->GetNumberOfPoints() << " points, "
-              << bounds[1] - bounds[0] << " x " << bounds[3] - bounds[2] << " x " << bounds[5] - bounds[4] << " mm\n";
+    std::cout << mesh->GetNumberOfPolys() << " triangles, " << mesh->GetNumberOfPoints() << " points, " << bounds[1] - bounds[0]
+              << " x " << bounds[3] - bounds[2] << " x " << bounds[5] - bounds[4] << " mm\n";
   }
   catch (const std::exception& error)
   {

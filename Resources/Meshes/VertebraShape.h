@@ -22,15 +22,30 @@ struct Vec
 {
   double x = 0.0, y = 0.0, z = 0.0;
 };
-inline Vec operator+(const Vec& a, const Vec& b) { return { a.x + b.x, a.y + b.y, a.z + b.z }; }
-inline Vec operator-(const Vec& a, const Vec& b) { return { a.x - b.x, a.y - b.y, a.z - b.z }; }
-inline Vec operator*(double s, const Vec& a) { return { s * a.x, s * a.y, s * a.z }; }
-inline double dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec operator+(const Vec& a, const Vec& b)
+{
+  return { a.x + b.x, a.y + b.y, a.z + b.z };
+}
+inline Vec operator-(const Vec& a, const Vec& b)
+{
+  return { a.x - b.x, a.y - b.y, a.z - b.z };
+}
+inline Vec operator*(double s, const Vec& a)
+{
+  return { s * a.x, s * a.y, s * a.z };
+}
+inline double dot(const Vec& a, const Vec& b)
+{
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline Vec cross(const Vec& a, const Vec& b)
 {
   return { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
 }
-inline Vec normalized(const Vec& a) { return (1.0 / std::sqrt(dot(a, a))) * a; }
+inline Vec normalized(const Vec& a)
+{
+  return (1.0 / std::sqrt(dot(a, a))) * a;
+}
 
 /// Smooth Boolean operations; `fillet` (mm) is the width of the band in which the two surfaces blend.
 inline double unite(double a, double b, double fillet)
@@ -38,8 +53,14 @@ inline double unite(double a, double b, double fillet)
   const double h = std::max(fillet - std::abs(a - b), 0.0) / fillet;
   return std::min(a, b) - h * h * h * fillet / 6.0;
 }
-inline double intersect(double a, double b, double fillet) { return -unite(-a, -b, fillet); }
-inline double subtract(double a, double b, double fillet) { return -unite(-a, b, fillet); }
+inline double intersect(double a, double b, double fillet)
+{
+  return -unite(-a, -b, fillet);
+}
+inline double subtract(double a, double b, double fillet)
+{
+  return -unite(-a, b, fillet);
+}
 
 /// 0 below `from`, 1 above `to`, smooth between.
 inline double smoothStep(double from, double to, double value)
@@ -85,12 +106,16 @@ struct Station
 class Sweep
 {
 public:
-  enum class Section { Round, Plate };
+  enum class Section
+  {
+    Round,
+    Plate
+  };
 
   Sweep(Section section, const Vec& u, std::initializer_list<Station> stations)
     : plate(section == Section::Plate)
   {
-    constexpr int pieces = 10; // straight pieces a station: fewer leave visible rings on the bone
+    constexpr int pieces = 10;  // straight pieces a station: fewer leave visible rings on the bone
     const std::vector<Station> given(stations);
     const int last = static_cast<int>(given.size()) - 1;
     Station from = given.front();
@@ -141,7 +166,7 @@ private:
     const Vec offset = p - s.from.centre - along * s.w;
     const double halfU = s.from.halfU + t * (s.to.halfU - s.from.halfU);
     const double halfV = s.from.halfV + t * (s.to.halfV - s.from.halfV);
-    const double half[3] = { halfU, halfV, std::min(halfU, halfV) }; // the ends are rounded
+    const double half[3] = { halfU, halfV, std::min(halfU, halfV) };  // the ends are rounded
     const double local[3] = { dot(offset, s.u), dot(offset, s.v), dot(offset, s.w) };
     double sum = 0.0, slope = 0.0;
     for (int i = 0; i < 3; ++i)
@@ -167,19 +192,19 @@ private:
 inline double body(const Vec& p)
 {
   constexpr double halfWidth = 22.5, halfDepth = 16.5;
-  constexpr double hilumRadius = 17.0; // the back wall's hollow, which the canal runs along
+  constexpr double hilumRadius = 17.0;  // the back wall's hollow, which the canal runs along
   // A little higher in front than behind, for the lumbar lordosis.
   const double halfHeight = 14.0 + 0.5 * p.y / halfDepth;
   const double t = std::min(std::abs(p.z - 0.4) / halfHeight, 1.0);
   const double waist = std::pow(1.0 - std::pow(t, 2.2), 1.25);
   const double x = p.x / (1.0 - 0.135 * waist);
   const double y = p.y / (1.0 - (p.y > 0 ? 0.14 : 0.05) * waist);
-  const double n = y > 0 ? 2.25 : 2.9; // round in front, squarer behind
+  const double n = y > 0 ? 2.25 : 2.9;  // round in front, squarer behind
   const double rx = std::abs(x) / halfWidth, ry = std::abs(y) / halfDepth;
   const double k = std::pow(std::pow(rx, n) + std::pow(ry, n), 1.0 / n);
   const double slope = std::hypot(std::pow(rx / (k + 1e-9), n - 1) / halfWidth, std::pow(ry / (k + 1e-9), n - 1) / halfDepth);
   double side = k < 0.05 ? -halfDepth : (k - 1.0) / slope;
-  side -= 0.7 * std::exp(-std::pow((std::abs(p.z - 0.4) - halfHeight + 3.0) / 2.2, 2)); // the rims' lip
+  side -= 0.7 * std::exp(-std::pow((std::abs(p.z - 0.4) - halfHeight + 3.0) / 2.2, 2));  // the rims' lip
   side = subtract(side, std::hypot(p.x, y + halfDepth + hilumRadius - 2.2) - hilumRadius, 7.0);
   const double dish = smoothStep(2.5, 12.5, -side);
   const double endplates = std::max(p.z - halfHeight + 1.8 * dish, -p.z - halfHeight + 2.3 * dish);
@@ -207,23 +232,20 @@ struct Processes
   Sweep lamina{ Section::Plate, { 0.46, -0.83, 0.33 },
     { { { 13.0, -30.0, -2.0 }, 3.6, 7.6 }, { { 6.5, -33.0, -5.5 }, 4.2, 9.6 }, { { 0.5, -35.8, -7 }, 4.4, 10.0 } } };
   Sweep spinous{ Section::Plate, { 1, 0, 0 },
-    { { { 0, -36, -5 }, 4.8, 9.4 }, { { 0, -45, -7.2 }, 2.9, 8.2 }, { { 0, -53, -8.6 }, 2.3, 8.8 },
-      { { 0, -58, -9.5 }, 2.6, 8.8 }, { { 0, -62, -10.5 }, 2.9, 6.0 } } };
+    { { { 0, -36, -5 }, 4.8, 9.4 }, { { 0, -45, -7.2 }, 2.9, 8.2 }, { { 0, -53, -8.6 }, 2.3, 8.8 }, { { 0, -58, -9.5 }, 2.6, 8.8 },
+      { { 0, -62, -10.5 }, 2.9, 6.0 } } };
   Sweep spinousEdge{ Section::Round, { 1, 0, 0 },
     { { { 0, -56.5, -1.8 }, 2.0, 2.0 }, { { 0, -61.2, -4.2 }, 2.9, 2.5 }, { { 0, -63.2, -10 }, 3.5, 2.8 },
       { { 0, -62.0, -16 }, 4.1, 3.2 }, { { 0, -57.0, -18.2 }, 3.3, 2.8 }, { { 0, -46, -14.5 }, 2.4, 2.2 } } };
   Sweep transverse{ Section::Round, { 0, 0, 1 },
     { { { 17.0, -25.5, 2.5 }, 6.8, 4.6 }, { { 24, -29, 1.2 }, 4.6, 3.1 }, { { 32, -32, 0.8 }, 3.9, 2.2 },
       { { 37.5, -34.5, 1.6 }, 4.4, 2.7 }, { { 40, -36, 2.2 }, 3.2, 2.4 } } };
-  Sweep accessory{ Section::Round, { 1, 0, 0 },
-    { { { 20.0, -30, -1.5 }, 2.6, 2.6 }, { { 21.0, -33, -3.2 }, 1.7, 1.7 } } };
+  Sweep accessory{ Section::Round, { 1, 0, 0 }, { { { 20.0, -30, -1.5 }, 2.6, 2.6 }, { { 21.0, -33, -3.2 }, 1.7, 1.7 } } };
   Sweep superior{ Section::Round, { 0.8, 0.6, 0 },
     { { { 16.6, -28.5, 2 }, 4.8, 6.8 }, { { 17.6, -31, 11 }, 5.0, 7.4 }, { { 17.6, -32, 17 }, 4.2, 6.6 },
       { { 17.2, -32.2, 20.5 }, 2.4, 3.6 } } };
-  Sweep superiorFacet{ Section::Round, { 1, 0, 0 },
-    { { { 8.6, -37.8, 15.5 }, 8.5, 8.5 }, { { 8.0, -37.8, 34 }, 8.5, 8.5 } } };
-  Sweep mammillary{ Section::Round, { 1, 0, 0 },
-    { { { 19.5, -33.5, 5 }, 3.4, 3.4 }, { { 20.6, -37.2, 12 }, 3.0, 3.0 } } };
+  Sweep superiorFacet{ Section::Round, { 1, 0, 0 }, { { { 8.6, -37.8, 15.5 }, 8.5, 8.5 }, { { 8.0, -37.8, 34 }, 8.5, 8.5 } } };
+  Sweep mammillary{ Section::Round, { 1, 0, 0 }, { { { 19.5, -33.5, 5 }, 3.4, 3.4 }, { { 20.6, -37.2, 12 }, 3.0, 3.0 } } };
   Sweep inferior{ Section::Round, { 0.82, 0.57, 0 },
     { { { 9.4, -36.0, -7 }, 4.8, 5.6 }, { { 10.4, -38.6, -14.5 }, 5.0, 6.2 }, { { 11.2, -39.3, -20.5 }, 4.3, 5.6 },
       { { 11.4, -39.0, -23.8 }, 2.6, 3.4 } } };
@@ -260,4 +282,4 @@ inline double vertebra(const Vec& p_Model)
   // Bone is not polished: a millimetre-scale relief.
   return bone + 0.28 * noise(p_Model, 7.0, 4) + 0.14 * noise(p_Model, 3.2, 5);
 }
-} // namespace vertebra
+}  // namespace vertebra

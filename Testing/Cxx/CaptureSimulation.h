@@ -27,8 +27,8 @@ inline CameraModel smallCamera()
   return makeCamera(320, 240, 300, 301, 158.2, 121.7, { -0.12, 0.05, 0.0006, -0.0008 });
 }
 
-/// A session that never was: a ball held at places in front of a camera whose marker is tracked, pictures and poses as a tracker would
-/// have given them, without noise.
+/// A session that never was: a ball held at places in front of a camera whose marker is tracked, pictures and poses as a tracker
+/// would have given them, without noise.
 struct SimulatedSession
 {
   CameraModel camera = smallCamera();

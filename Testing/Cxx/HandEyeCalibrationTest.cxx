@@ -219,7 +219,8 @@ TEST(HandEyeCalibration, Covariance_IsHonest)
       chiSquares += chiSquare;
       beyond99 += chiSquare > 16.81 ? 1 : 0;
     }
-    // Six degrees of freedom: the mean of 150 is 6 with a standard deviation of 0.28; scatter above the expected widens the covariance.
+    // Six degrees of freedom: the mean of 150 is 6 with a standard deviation of 0.28; scatter above the expected widens the
+    // covariance.
     EXPECT_GT(chiSquares / runs, 4.5) << named.name;
     EXPECT_LT(chiSquares / runs, 7.5) << named.name;
     EXPECT_LE(beyond99, 8) << named.name;

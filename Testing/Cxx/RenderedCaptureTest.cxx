@@ -144,8 +144,8 @@ TEST_P(RenderedCapture, PaperPipeline_RunsAndNeverClaimsNonsense)
   }
 }
 
-// The ratio of a capture with few samples scatters: one draw of noise stands against one other. The first two are those that the acceptance of
-// the method was defined on.
+// The ratio of a capture with few samples scatters: one draw of noise stands against one other. The first two are those that the
+// acceptance of the method was defined on.
 INSTANTIATE_TEST_SUITE_P(All, RenderedCapture,
   ::testing::Values(Expectation{ "dev_webcam", 0.15, 0.4, 1.5 }, Expectation{ "dev_laparoscope", 0.2, 0.5, 1.5 },
     Expectation{ "table_webcam", 0.2, 0.4, 1.6 }, Expectation{ "tissue_laparoscope", 0.5, 2.0, 2.0 }),

@@ -38,8 +38,8 @@ struct Photograph
   unsigned seed = 1;
 };
 
-/// A picture of balls, worked out analytically: whether a ray meets the sphere, each ray through the exact lens, 8 x 8 rays a pixel along the
-/// outline, in linear light; then blur, sRGB, noise and rounding.
+/// A picture of balls, worked out analytically: whether a ray meets the sphere, each ray through the exact lens, 8 x 8 rays a pixel
+/// along the outline, in linear light; then blur, sRGB, noise and rounding.
 class SphereScene
 {
 public:
@@ -210,7 +210,8 @@ private:
   cv::Mat light_;
 };
 
-/// A ball whose outline has about this radius (px) and whose centre is seen at this place, as shares of the image's width and height.
+/// A ball whose outline has about this radius (px) and whose centre is seen at this place, as shares of the image's width and
+/// height.
 inline RenderedBall ballSeenAt(const CameraModel& camera, double xShare, double yShare, double radiusPx, double radiusMm = 15)
 {
   RenderedBall ball;

@@ -20,8 +20,8 @@
 namespace handeye::test
 {
 
-/// Small recordings of a tracked ball before a tracked camera, with all that a user's recordings have wrong in them; the same numbers
-/// at every run.
+/// Small recordings of a tracked ball before a tracked camera, with all that a user's recordings have wrong in them; the same
+/// numbers at every run.
 struct SyntheticCapture
 {
   CameraModel camera = makeCamera(320, 240, 301.3, 302.1, 158.4, 121.7, { 0.04, -0.1, -0.0007, 0.0011, 0.02 });

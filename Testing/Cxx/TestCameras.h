@@ -36,7 +36,8 @@ inline CameraModel barrel()
   return makeCamera(640, 480, 800, 800, 319.5, 239.5, { -0.4, 0, 0, 0 });
 }
 
-/// The pass-through camera of the paper's authors (left_calibration.xml of their app): four coefficients, up to 48 degrees off the axis.
+/// The pass-through camera of the paper's authors (left_calibration.xml of their app): four coefficients, up to 48 degrees off the
+/// axis.
 inline CameraModel passThrough()
 {
   return makeCamera(960, 950, 443.08778509658629, 440.88255151097923, 491.37630327079307, 477.33731041974312,
