@@ -9,6 +9,6 @@ cd "$(dirname "$0")"
 . Utilities/set_up.sh
 
 # On the way into the main branch a warning is an error.
-set_up all ${CI:+-DHANDEYE_WARNINGS_AS_ERRORS=ON}
+set_up all "-DHANDEYE_WARNINGS_AS_ERRORS=${CI:+ON}"
 say "Running the tests (no display is needed)"
 env -u DISPLAY ctest --preset release -j "$(nproc)" --no-tests=error "$@"

@@ -14,7 +14,7 @@ if(HANDEYE_CCACHE)
 endif()
 
 if(HANDEYE_SANITIZER)
-  add_compile_options(-fsanitize=${HANDEYE_SANITIZER} -fno-omit-frame-pointer)
+  add_compile_options(-fsanitize=${HANDEYE_SANITIZER} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${HANDEYE_SANITIZER})
 endif()
 

@@ -5,6 +5,7 @@
 #include "HandEyeConsensus.h"
 #include "HandEyeResiduals.h"
 #include "HandEyeUncertainty.h"
+#include "Statistics.h"
 
 #include <Eigen/Dense>
 
@@ -53,6 +54,32 @@ Status translate(PointLineResult::Status status)
   return Status::NotObservable;
 }
 
+/// The median of (distance by apparent size / distance by tracking) of the used samples; 1 where sizes are not known.
+double apparentScale(const Samples& samples, const Eyes& eyes, const HandEyeCalibrationResult& result)
+{
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+  {
+    if (result.samples[i].used && samples[i].apparentDistanceMm > 0)
+    {
+      ratios.push_back(samples[i].apparentDistanceMm / std::max(1e-9, distanceMm(samples[i], eyes, result.markerToCamera)));
+    }
+  }
+  return ratios.empty() ? 1 : median(ratios);
+}
+
+/// Whether what was left out is a run of four or more frames at the beginning or the end of one eye's capture: something slipped there.
+bool isOneRun(const HandEyeCalibrationResult& result)
+{
+  constexpr std::ptrdiff_t fewest = 4;
+  const auto isUsed = [](const HandEyeCalibrationResult::Sample& sample) { return sample.used; };
+  const auto firstUsed = std::find_if(result.samples.begin(), result.samples.end(), isUsed);
+  const auto lastUsed = std::find_if(result.samples.rbegin(), result.samples.rend(), isUsed);
+  const std::ptrdiff_t before = firstUsed - result.samples.begin(), after = lastUsed - result.samples.rbegin();
+  const std::ptrdiff_t leftOut = std::ptrdiff_t(result.samples.size()) - result.usedCount;
+  return leftOut >= fewest && (before == leftOut || after == leftOut);
+}
+
 /// Residuals of every sample, sums over the used ones, covariance and verdict.
 void conclude(const Samples& samples, const std::vector<int>& used, const Eyes& eyes, const HandEyeCalibrationOptions& options,
   HandEyeCalibrationResult& result)
@@ -83,11 +110,31 @@ void conclude(const Samples& samples, const std::vector<int>& used, const Eyes& 
   result.pointToLineRmsMm = std::sqrt(squaresMm / result.usedCount);
   const double misfit = estimateCovariance(samples, eyes, options, result);
   result.predicted = predictProjectionError(result.covariance, eyes.front(), nearest, furthest);
-  if (result.isUsable() && !(misfit <= options.maximumMisfit))
+  const double scale = apparentScale(samples, eyes, result);
+  if (result.isUsable() && result.placeCount < options.minimumSamples)
+  {
+    result.status = Status::TooFewSamples;
+    result.message = "the ball was at " + std::to_string(result.placeCount) + " places only, at least " +
+      std::to_string(options.minimumSamples) + " are needed (12 to 15 are recommended)";
+  }
+  else if (result.isUsable() && !(misfit <= options.maximumMisfit))
   {
     result.status = Status::PoorFit;
     result.message = "the solution misses its own samples by " + oneDigit(result.pointToLineRmsMm) +
       " mm (RMS): some of them show something else than the ball, or the stylus' tip is wrong";
+  }
+  else if (result.isUsable() && std::abs(std::log(scale)) > std::log(1 + options.maximumScaleError))
+  {
+    result.status = Status::WrongScale;
+    result.message = "by its apparent size the ball is " + oneDigit(scale) +
+      " times as far away as by tracking: check the ball's radius (mm) and the focal length of the camera file";
+  }
+  else if (result.isUsable() && isOneRun(result))
+  {
+    result.status = Status::MarkerMoved;
+    result.message = std::to_string(samples.size() - std::size_t(result.usedCount)) +
+      " samples in a row, at one end of the capture, disagree with the others: the marker on the camera or the stylus' marker has "
+      "slipped";
   }
   else if (result.isUsable() && !(result.predicted.meanPx <= options.maximumPredictedErrorPx))
   {
@@ -127,7 +174,7 @@ void HandEyeCalibrationOptions::check() const
 {
   if (!(trackingSigmaMm >= 0) || !(segmentationSigmaPx >= 0) || !(trackingSigmaMm + segmentationSigmaPx > 0) ||
     minimumSamples < 4 || !(rejectionFactor > 1) || !(maximumRejectedShare >= 0 && maximumRejectedShare < 1) ||
-    !(maximumMisfit > 0) || !(maximumPredictedErrorPx > 0))
+    !(maximumMisfit > 0) || !(maximumScaleError > 0) || !(maximumPredictedErrorPx > 0))
   {
     throw std::invalid_argument(
       "hand-eye calibration options: noise of at least 0, at least 4 samples, a rejection factor above 1 are expected");
@@ -159,8 +206,7 @@ HandEyeCalibrationResult calibrateHandEye(const Samples& samples, const Eyes& ey
     {
       result.status = Status::NoConsensus;
       result.message = "no solution agrees with more than " + std::to_string(kept.size()) + " of " +
-        std::to_string(samples.size()) +
-        " samples: check the stylus' tip, the ball's radius and that the marker on the camera has not moved";
+        std::to_string(samples.size()) + " samples: check the stylus' tip, the names of the tools, and that no marker has slipped";
       return result;
     }
     if (int(kept.size()) < options.minimumSamples)
@@ -205,6 +251,10 @@ std::string toString(Status status)
       return "mirrored";
     case Status::Ambiguous:
       return "ambiguous";
+    case Status::WrongScale:
+      return "wrong_scale";
+    case Status::MarkerMoved:
+      return "marker_moved";
     case Status::PoorFit:
       return "poor_fit";
     case Status::TooUncertain:

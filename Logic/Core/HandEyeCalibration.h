@@ -29,7 +29,8 @@ struct HandEyeSample
   Eigen::Vector3d tip_Marker = Eigen::Vector3d::Zero();  ///< the ball's centre from the tracker, mm
   Eigen::Vector2d ball_Image = Eigen::Vector2d::Zero();  ///< the ball's centre in the eye's image, px
   Eigen::Vector3d ray_Eye = Eigen::Vector3d::UnitZ();    ///< the unit ray of that pixel
-  double sigmaPx = 0;  ///< of the segmentation (one standard deviation per axis, px); 0 where it is not known
+  double apparentDistanceMm = 0;  ///< of the ball from the eye, by its apparent size; 0 where it is not known
+  double sigmaPx = 0;             ///< of the segmentation (one standard deviation per axis, px); 0 where it is not known
 };
 
 struct HandEyeCalibrationOptions
@@ -39,7 +40,7 @@ struct HandEyeCalibrationOptions
   /// error; sets the samples' weights.
   double trackingSigmaMm = 0.35;
   double segmentationSigmaPx = 0.25;
-  /// Fewer used samples than this give no calibration.
+  /// Fewer places of the ball than this give no calibration. Samples of one place (a video of a ball that is held still) count as one.
   int minimumSamples = 6;
   /// Look for samples that disagree with the rest and leave them out.
   bool rejectOutliers = true;
@@ -49,7 +50,10 @@ struct HandEyeCalibrationOptions
   double maximumRejectedShare = 0.5;
   /// Largest scatter of the used samples in multiples of what is expected of them; more is no calibration, whatever its covariance
   /// says.
-  double maximumMisfit = 8;
+  double maximumMisfit = 4;
+  /// Largest deviation of the distances by apparent size from those by tracking, as a share: beyond it the ball's radius or the focal length
+  /// is wrong. Shading makes a ball look up to 8 % small.
+  double maximumScaleError = 0.15;
   /// Largest mean predicted projection error (px) over the working volume of a result that is called usable.
   double maximumPredictedErrorPx = 20;
 
@@ -77,6 +81,8 @@ struct HandEyeCalibrationResult
     NotConverged,   ///< the iteration of `procrustes` reached its cap
     Mirrored,       ///< every solution has the ball behind the camera
     Ambiguous,      ///< two different solutions fit equally well
+    WrongScale,     ///< the ball's apparent size does not fit its tracked distance
+    MarkerMoved,    ///< the first or the last samples in a row disagree with the others
     PoorFit,        ///< the solution does not explain its samples
     TooUncertain    ///< the predicted error is too large to be of use
   };
@@ -96,6 +102,7 @@ struct HandEyeCalibrationResult
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<Sample> samples;  ///< one per sample given
   int usedCount = 0;
+  int placeCount = 0;            ///< different places of the ball among the used samples
   double reprojectionRmsPx = 0;  ///< root mean square of the used samples' residuals; the data that were fitted, not a validation
   double pointToLineRmsMm = 0;
   int iterations = 0;

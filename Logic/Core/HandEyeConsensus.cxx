@@ -17,6 +17,14 @@ namespace
 constexpr std::size_t MinimalSet = 4;
 constexpr int MostDraws = 300;
 constexpr int RejectionRounds = 10;
+/// However much the samples scatter, the limit is not drawn further than this: a set that contradicts itself must not excuse itself.
+constexpr double LargestScale = 2;
+
+/// The scatter of samples in multiples of what is expected of them, for the limit of agreement.
+double scaleOf(const std::vector<double>& normalized)
+{
+  return std::clamp(median(normalized) / MedianOfChi2, 1.0, LargestScale);
+}
 
 /// The next set of `MinimalSet` indices: all combinations where they are few, otherwise random draws.
 std::vector<std::vector<int>> minimalSets(int count)
@@ -93,7 +101,7 @@ std::vector<int> findConsensus(const HandEyeSamples& samples, const Eyes& eyes, 
   {
     return {};
   }
-  std::vector<int> kept = agreeing(best, 3 * options.rejectionFactor * std::max(1.0, median(best) / MedianOfChi2));
+  std::vector<int> kept = agreeing(best, 3 * options.rejectionFactor * scaleOf(best));
   for (int round = 0; round < RejectionRounds && kept.size() >= MinimalSet; ++round)
   {
     const PointLineResult solution = solveHandEye(samples, kept, eyes, options, PointLineOptions::Method::Global, 2);
@@ -102,8 +110,7 @@ std::vector<int> findConsensus(const HandEyeSamples& samples, const Eyes& eyes, 
       return kept;
     }
     const std::vector<double> normalized = normalizedResiduals(samples, eyes, solution.pointsToLines, options);
-    const double scale = std::max(1.0, median(normalized) / MedianOfChi2);
-    std::vector<int> next = agreeing(normalized, options.rejectionFactor * scale);
+    std::vector<int> next = agreeing(normalized, options.rejectionFactor * scaleOf(normalized));
     if (next == kept)
     {
       break;

@@ -13,22 +13,53 @@
 namespace handeye
 {
 
+namespace
+{
+
+/// Tips that are closer than this are one place of the ball.
+constexpr double SamePlaceMm = 2;
+/// From the first of these multiples of the expected scatter on, a misfit is taken to be systematic; from the second on wholly.
+constexpr double RandomMisfit = 1.25;
+constexpr double SystematicMisfit = 2;
+
+}  // namespace
+
+std::vector<double> placeShares(const HandEyeSamples& samples, const std::vector<int>& used)
+{
+  std::vector<double> shares(samples.size(), 0);
+  for (int i : used)
+  {
+    const auto isHere = [&](int k)
+    { return (samples[std::size_t(k)].tip_Marker - samples[std::size_t(i)].tip_Marker).norm() < SamePlaceMm; };
+    shares[std::size_t(i)] = 1 / double(std::count_if(used.begin(), used.end(), isHere));
+  }
+  return shares;
+}
+
 double estimateCovariance(
   const HandEyeSamples& samples, const Eyes& eyes, const HandEyeCalibrationOptions& options, HandEyeCalibrationResult& result)
 {
-  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
-  double squares = 0;
+  std::vector<int> used;
   for (std::size_t i = 0; i < samples.size(); ++i)
   {
-    if (!result.samples[i].used)
+    if (result.samples[i].used)
     {
-      continue;
+      used.push_back(int(i));
     }
-    const Eye& eye = eyes[std::size_t(samples[i].eye)];
-    const Eigen::Vector3d tip_Camera = result.markerToCamera * samples[i].tip_Marker;
-    const double distance = distanceMm(samples[i], eyes, result.markerToCamera);
-    const double misfit = result.samples[i].residualMm / expectedMm(samples[i], distance, eyes, options);
-    squares += misfit * misfit;
+  }
+  const std::vector<double> shares = placeShares(samples, used);
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  double squares = 0, places = 0;
+  for (int i : used)
+  {
+    const HandEyeSample& sample = samples[std::size_t(i)];
+    const double share = shares[std::size_t(i)];
+    const Eye& eye = eyes[std::size_t(sample.eye)];
+    const Eigen::Vector3d tip_Camera = result.markerToCamera * sample.tip_Marker;
+    const double distance = distanceMm(sample, eyes, result.markerToCamera);
+    const double misfit = result.samples[std::size_t(i)].residualMm / expectedMm(sample, distance, eyes, options);
+    squares += share * misfit * misfit;
+    places += share;
     Eigen::Matrix<double, 2, 3> byPoint;
     if (!eye.camera.project(eye.cameraToEye * tip_Camera, &byPoint).isUsable())
     {
@@ -37,13 +68,15 @@ double estimateCovariance(
     Eigen::Matrix<double, 3, 6> motion;
     motion << -skew(tip_Camera), Eigen::Matrix3d::Identity();
     const Eigen::Matrix<double, 2, 6> byPose =
-      byPoint * eye.cameraToEye.linear() * motion / expectedPx(samples[i], distance, eyes, options);
-    information += byPose.transpose() * byPose;
+      byPoint * eye.cameraToEye.linear() * motion / expectedPx(sample, distance, eyes, options);
+    information += share * byPose.transpose() * byPose;
   }
-  const double freedoms = std::max(1.0, 2.0 * result.usedCount - 6);
-  const double varianceFactor = std::max(1.0, squares / freedoms);
+  const double misfit = std::sqrt(squares / std::max(1.0, 2.0 * places - 6));
+  const double systematic = std::clamp((misfit - RandomMisfit) / (SystematicMisfit - RandomMisfit), 0.0, 1.0);
+  const double varianceFactor = std::max(1.0, misfit * misfit) * (1 + systematic * (places - 1));
+  result.placeCount = int(std::lround(places));
   result.covariance = varianceFactor * information.inverse();
-  return std::sqrt(squares / freedoms);
+  return misfit;
 }
 
 PredictedError predictProjectionError(

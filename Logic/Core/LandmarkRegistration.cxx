@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 namespace handeye
@@ -24,6 +25,8 @@ constexpr double CollinearRatio = 0.02;
 /// away.
 constexpr double MirrorFactor = 4;
 constexpr double MirrorRmsMm = 3;
+/// Larger residuals are no registration of anatomy that was touched with care.
+constexpr double LargestRmsMm = 3;
 
 Eigen::Matrix3Xd toMatrix(const Points& points)
 {
@@ -54,6 +57,45 @@ double mirroredRms(const Eigen::Matrix3Xd& model, const Eigen::Matrix3Xd& phanto
   const Eigen::Matrix4d fit = Eigen::umeyama(mirrored, phantom, false);
   const Eigen::Matrix3Xd left = (fit.topLeftCorner<3, 3>() * mirrored).colwise() + fit.topRightCorner<3, 1>() - phantom;
   return std::sqrt(left.colwise().squaredNorm().mean());
+}
+
+double rmsWithout(const Points& points_Model, const Points& points_Phantom, std::size_t left)
+{
+  Points model = points_Model, phantom = points_Phantom;
+  model.erase(model.begin() + std::ptrdiff_t(left));
+  phantom.erase(phantom.begin() + std::ptrdiff_t(left));
+  const Eigen::Matrix3Xd from = toMatrix(model), to = toMatrix(phantom);
+  const Eigen::Matrix4d fit = Eigen::umeyama(from, to, false);
+  const Eigen::Matrix3Xd rest = (fit.topLeftCorner<3, 3>() * from).colwise() + fit.topRightCorner<3, 1>() - to;
+  return std::sqrt(rest.colwise().squaredNorm().mean());
+}
+
+std::string oneDigit(double value)
+{
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.1f", value);
+  return text;
+}
+
+/// What is wrong: one landmark, or the whole.
+std::string describePoorFit(const Points& points_Model, const Points& points_Phantom, double rmsMm)
+{
+  std::string text = "the landmarks differ by " + oneDigit(rmsMm) + " mm (RMS), more than the " + oneDigit(LargestRmsMm) +
+    " mm of a usable registration: ";
+  std::size_t worst = 0;
+  double least = rmsMm;
+  for (std::size_t i = 0; points_Model.size() > 4 && i < points_Model.size(); ++i)
+  {
+    const double rms = rmsWithout(points_Model, points_Phantom, i);
+    if (rms < least)
+    {
+      least = rms;
+      worst = i;
+    }
+  }
+  return least <= LargestRmsMm
+    ? text + "touch landmark " + std::to_string(worst + 1) + " again, without it " + oneDigit(least) + " mm are left"
+    : text + "check their order and that both lists are in mm";
 }
 
 }  // namespace
@@ -90,6 +132,12 @@ LandmarkRegistrationResult registerLandmarks(const Points& points_Model, const P
     result.message = "the touched points are the mirror image of the model's: check their order and the model's side";
     return result;
   }
+  if (!(result.rmsMm <= LargestRmsMm) || !result.modelToPhantom.matrix().allFinite())
+  {
+    result.status = Status::PoorFit;
+    result.message = describePoorFit(points_Model, points_Phantom, result.rmsMm);
+    return result;
+  }
   result.status = Status::Ok;
   result.message = "registered " + std::to_string(points_Model.size()) + " landmarks";
   return result;
@@ -105,6 +153,8 @@ std::string toString(Status status)
       return "too_few_points";
     case Status::Collinear:
       return "collinear";
+    case Status::PoorFit:
+      return "poor_fit";
     case Status::Mirrored:
       return "mirrored";
   }

@@ -18,6 +18,7 @@ struct LandmarkRegistrationResult
     Ok,
     TooFewPoints,  ///< fewer than 3
     Collinear,     ///< the points of one side lie on one line or in one place
+    PoorFit,       ///< the touched points are not where the model has them: wrong order, wrong unit, a slip
     Mirrored       ///< the touched points are the model's mirror image: wrong order or wrong model
   };
 
@@ -32,6 +33,8 @@ struct LandmarkRegistrationResult
 
 /// Registers paired landmarks: the rotation and translation that bring the model's points onto the touched ones with the least
 /// squares.
+///
+/// A fit of more than 3 mm RMS is not usable; its message names the landmark whose leaving out helps most.
 ///
 /// @param points_Model,points_Phantom the same landmarks in the same order, mm
 /// @throws std::invalid_argument if the counts differ or a number is not finite

@@ -112,7 +112,20 @@ std::string fixed(double value, int digits)
   return text.str();
 }
 
-void judge(PivotCalibrationResult& result, std::size_t poseCount, const PivotCalibrationOptions& options)
+/// How far the tip moved between the two halves of the used poses: the difference of where it stood on average.
+double tipMotion(const Poses& poses, const PivotCalibrationResult& result)
+{
+  Eigen::Vector3d halves[2] = { Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero() };
+  const std::size_t middle = result.used.size() / 2;
+  for (std::size_t k = 0; k < result.used.size(); ++k)
+  {
+    const double count = double(k < middle ? middle : result.used.size() - middle);
+    halves[k < middle ? 0 : 1] += poses[std::size_t(result.used[k])] * result.tip_Stylus / count;
+  }
+  return (halves[1] - halves[0]).norm();
+}
+
+void judge(PivotCalibrationResult& result, std::size_t poseCount, double tipMotionMm, const PivotCalibrationOptions& options)
 {
   const double degrees = 180 / EIGEN_PI;
   const double rejectedShare = double(result.rejected.size()) / double(poseCount);
@@ -132,6 +145,20 @@ void judge(PivotCalibrationResult& result, std::size_t poseCount, const PivotCal
     result.status = Status::TooManyRejected;
     result.message = "no tip explains " + std::to_string(result.rejected.size()) + " of " + std::to_string(poseCount) +
       " poses: the tip left its divot, or another tool was recorded";
+  }
+  else if (!(result.tip_Stylus.norm() >= options.nearestTipMm && result.tip_Stylus.norm() <= options.furthestTipMm))
+  {
+    result.status = Status::ImplausibleTip;
+    result.message = "the tip came out " + fixed(result.tip_Stylus.norm(), 1) + " mm from the marker, expected " +
+      fixed(options.nearestTipMm, 0) + " to " + fixed(options.furthestTipMm, 0) +
+      " mm: are the poses in mm, and do they map the stylus to the tracker?";
+  }
+  else if (!(tipMotionMm <= options.maximumTipMotionMm))
+  {
+    result.status = Status::TipMoved;
+    result.message = "the tip moved by " + fixed(tipMotionMm, 2) +
+      " mm between the first and the second half of the recording, more than the " + fixed(options.maximumTipMotionMm, 1) +
+      " mm that a usable result allows: it slipped in the divot, or the divot moved";
   }
   else if (result.rmsMm > options.maximumRmsMm)
   {
@@ -215,7 +242,7 @@ PivotCalibrationResult calibratePivot(const Poses& stylusToTracker, const PivotC
   {
     result.tipCovariance = squares / std::max(1.0, 3 * count - 6) * solution.matrix.inverse();
   }
-  judge(result, stylusToTracker.size(), options);
+  judge(result, stylusToTracker.size(), tipMotion(stylusToTracker, result), options);
   return result;
 }
 
@@ -233,6 +260,10 @@ std::string toString(Status status)
       return "too_little_rotation";
     case Status::TooManyRejected:
       return "too_many_rejected";
+    case Status::TipMoved:
+      return "tip_moved";
+    case Status::ImplausibleTip:
+      return "implausible_tip";
     case Status::TooNoisy:
       return "too_noisy";
   }

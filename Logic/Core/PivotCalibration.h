@@ -24,6 +24,11 @@ struct PivotCalibrationOptions
   double maximumRejectedShare = 0.4;
   /// Largest root mean square residual (mm) of a usable result.
   double maximumRmsMm = 3.0;
+  /// Largest distance (mm) between where the tip stood in the first and in the second half of the poses.
+  double maximumTipMotionMm = 0.5;
+  /// Least and largest distance (mm) of the tip from the marker.
+  double nearestTipMm = 5;
+  double furthestTipMm = 1000;
 
   /// @throws std::invalid_argument with a sentence where a number makes no sense
   void check() const;
@@ -38,6 +43,8 @@ struct PivotCalibrationResult
     RotationAboutOneAxis,  ///< the stylus was spun or swung about a single axis: the tip is free along it
     TooLittleRotation,     ///< the stylus was hardly turned
     TooManyRejected,       ///< no tip explains most of the poses: the divot moved, or another tool was recorded
+    TipMoved,              ///< the tip stood somewhere else in the second half of the recording
+    ImplausibleTip,        ///< the tip is nearer to or further from the marker than any stylus' is: other units, or inverted poses
     TooNoisy               ///< the residuals are larger than a tracked stylus can have
   };
 

@@ -130,12 +130,18 @@ void solveGlobal(const Pairs& pairs, const PointLineOptions& options, PointLineR
       return;
     }
   }
+  const double indistinguishable = 1.0001 * chosen->cost + roundingCost(pairs);
+  const auto firstWorse =
+    std::find_if(chosen, minima.end(), [&](const Minimum& minimum) { return minimum.cost > indistinguishable; });
+  // Points of a plane seen along lines through one centre have a twin behind it: directions have a sense, so the one in front is meant.
+  const auto inFront = std::find_if(chosen, firstWorse, isInFront);
+  chosen = inFront != firstWorse ? inFront : chosen;
   result.pointsToLines = transform(*chosen);
   result.status = Status::Ok;
-  const double indistinguishable = 1.0001 * chosen->cost + roundingCost(pairs);
-  for (auto other = chosen + 1; other != minima.end() && other->cost <= indistinguishable; ++other)
+  for (auto other = minima.begin(); other != firstWorse; ++other)
   {
-    if (!options.linesAreRays || isInFront(*other))
+    const bool isRival = other != chosen && (isInFront(*other) || (!options.linesAreRays && inFront == firstWorse));
+    if (isRival)
     {
       result.status = Status::Ambiguous;
       result.message = "two different solutions fit equally well: add points that differ in depth and place";

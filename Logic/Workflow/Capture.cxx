@@ -111,7 +111,7 @@ std::vector<HandEyeSample> toSamples(const std::vector<CapturedFrame>& frames, i
     if (captured.isSample() && captured.tip_Marker)
     {
       const BallDetection& ball = captured.ball;
-      samples.push_back({ captured.frame, eye, *captured.tip_Marker, ball.ball_Image, ball.ray_Camera,
+      samples.push_back({ captured.frame, eye, *captured.tip_Marker, ball.ball_Image, ball.ray_Camera, ball.distanceMm,
         std::sqrt(ball.covariance_Image.trace() / 2) });
     }
   }

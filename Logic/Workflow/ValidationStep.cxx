@@ -16,9 +16,13 @@ std::string describe(const Summary& errorPx, std::size_t frameCount)
   {
     return "the ball was found and tracked in none of the " + std::to_string(frameCount) + " frames: nothing could be validated";
   }
+  const char* verdict = errorPx.mean < 1 ? "good"
+    : errorPx.mean < 3                   ? "fair"
+    : errorPx.mean < 20                  ? "poor"
+                                         : "the calibration does not hold here";
   char text[200];
-  std::snprintf(text, sizeof(text), "projection error %.2f px mean, %.2f px RMS, %.2f px at most, over %d of %zu frames",
-    errorPx.mean, errorPx.rms, errorPx.maximum, errorPx.count, frameCount);
+  std::snprintf(text, sizeof(text), "%s: projection error %.2f px mean, %.2f px RMS, %.2f px at most, over %d of %zu frames",
+    verdict, errorPx.mean, errorPx.rms, errorPx.maximum, errorPx.count, frameCount);
   return text;
 }
 

@@ -46,7 +46,7 @@ void sayLeftOut(const CommandOutput& output, const std::vector<CalibratedFrame>&
 {
   for (const CalibratedFrame& frame : frames)
   {
-    if (frame.used)
+    if (frame.used || frame.status == "ok")
     {
       continue;
     }

@@ -22,6 +22,10 @@ void CommandOutput::addTo(CLI::App& command, bool withFile)
     // Found out before the work is done, not after it.
     const auto hasFolder = [](const std::string& path)
     {
+      if (std::filesystem::is_directory(path))
+      {
+        return "'" + path + "' is a folder, a file is expected";
+      }
       const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
       return std::filesystem::is_directory(folder)
         ? std::string()
@@ -49,13 +53,16 @@ void CommandOutput::warn(const std::vector<std::string>& warnings) const
 int CommandOutput::finish(const nlohmann::json& result) const
 {
   const bool usable = result.at("status") == "ok";
+  if (usable && !this->file.empty())
+  {
+    writeJson(this->file, result);
+  }
   if (this->json)
   {
     std::cout << result.dump(2) << std::endl;
   }
   if (usable && !this->file.empty())
   {
-    writeJson(this->file, result);
     this->say("written to " + this->file);
   }
   if (!usable)

@@ -90,13 +90,14 @@ public:
     : arguments_(arguments)
     , recording_(recording)
     , transforms_{ stored.markerToCamera, readPhantomRegistration(arguments.registration) }
+    , camera_(cameraForRecording(stored.camera, recording))
     , markerTransform_(arguments.markerTransform.empty() ? stored.tools.markerToTracker : arguments.markerTransform)
   {
     recording.requireTransform(arguments.phantomTransform);
     recording.requireTransform(markerTransform_);
     model_ = readMesh(arguments.model);
     registerOffscreenRendering();
-    pipeline_->SetCameraModel(cameraForRecording(stored.camera, recording));
+    pipeline_->SetCameraModel(camera_);
     pipeline_->SetModel(model_);
     pipeline_->SetMaskMode(arguments.mask);
     setLook(arguments, pipeline_);
@@ -112,10 +113,14 @@ public:
     const OverlayPose pose = overlayPose(recording_, frame, markerTransform_, arguments_.phantomTransform, transforms_);
     pipeline_->SetVideoFrame(toEightBit(recording_.image(frame)));
     pipeline_->SetModelVisible(pose.isUsable());
+    std::string status = pose.status, message = pose.message;
     if (pose.modelToCamera)
     {
       pipeline_->SetModelToCamera(toVtk(*pose.modelToCamera));
-      ++drawn_;
+      const bool inView = isInView(*pose.modelToCamera);
+      status = inView ? status : "out_of_view";
+      message = inView ? message : "no point of the model is in the picture";
+      drawn_ += inView ? 1 : 0;
     }
     cv::Mat picture;
     pipeline_->RenderToImage(picture);
@@ -123,11 +128,11 @@ public:
     std::snprintf(name, sizeof(name), "%04d.png", frame);
     const std::filesystem::path file = std::filesystem::path(arguments_.folder) / name;
     io::writePng(file, picture);
-    nlohmann::json row = { { "frame", frame }, { "status", pose.status }, { "file", file.string() } };
-    if (!pose.modelToCamera)
+    nlohmann::json row = { { "frame", frame }, { "status", status }, { "file", file.string() } };
+    if (status != "ok")
     {
-      row["message"] = pose.message;
-      arguments_.output.say("frame " + std::to_string(frame) + " has no model: " + pose.status + " (" + pose.message + ")");
+      row["message"] = message;
+      arguments_.output.say("frame " + std::to_string(frame) + " has no model: " + status + " (" + message + ")");
     }
     return row;
   }
@@ -135,9 +140,27 @@ public:
   int drawn() const { return drawn_; }
 
 private:
+  /// Whether any point of the model projects into the picture.
+  bool isInView(const Eigen::Isometry3d& modelToCamera) const
+  {
+    for (vtkIdType i = 0; i < model_->GetNumberOfPoints(); ++i)
+    {
+      const Eigen::Vector3d point_Camera = modelToCamera * Eigen::Map<const Eigen::Vector3d>(model_->GetPoint(i));
+      const CameraModel::Projection seen = camera_.project(point_Camera);
+      const Eigen::Vector2d& pixel = seen.point_Image;
+      if (seen.isUsable() && pixel.x() > -0.5 && pixel.y() > -0.5 && pixel.x() < camera_.width() - 0.5 &&
+        pixel.y() < camera_.height() - 0.5)
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
   const OverlayArguments& arguments_;
   const io::Recording& recording_;
   OverlayTransforms transforms_;
+  CameraModel camera_;
   std::string markerTransform_;
   vtkSmartPointer<vtkPolyData> model_;
   vtkNew<vtkHandEyeOverlayPipeline> pipeline_;

@@ -42,6 +42,7 @@ int runValidate(const ValidateArguments& arguments)
     arguments.output.say(format("                     %.2f to %.2f px over ", error.minimum, error.maximum) +
       std::to_string(error.count) + " of " + std::to_string(frames.size()) + " frames");
   }
+  arguments.output.say("verdict              " + step.message);
   for (const ValidatedFrame& frame : step.frames)
   {
     if (frame.status != "ok")

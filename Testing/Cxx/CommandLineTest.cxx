@@ -161,6 +161,11 @@ TEST_F(CommandLine, StereoRig_WithKnownRelation_IsOneRegistration)
   EXPECT_EQ(both.at("samples").size(), 15U);
   EXPECT_EQ(both.at("rightSamples").size(), 8U);
   EXPECT_LT((toMatrix(both.at("markerToCamera")) - toMatrix(both.at("markerToRightCamera"))).norm(), 1e-12);
+  // A relation that is not there must not be believed: both eyes contradict each other.
+  write("wrong.txt", "1 0 0 -60\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  const CommandResult wrong =
+    calibrate({ "--right", demo("validation"), "--right-camera", demo("camera.yml"), "--left-to-right", file("wrong.txt") });
+  EXPECT_EQ(wrong.exitCode, 1) << wrong.out;
   const CommandResult apart = calibrate({ "--right", demo("validation"), "--right-camera", demo("camera.yml") });
   ASSERT_EQ(apart.exitCode, 0) << apart.err;
   EXPECT_GT((toMatrix(apart.json().at("markerToCamera")) - toMatrix(apart.json().at("markerToRightCamera"))).norm(), 1e-6);
@@ -212,6 +217,89 @@ TEST_F(CommandLine, DataThatDoNotAllowAResult_Exit1AndKeepTheOldFile)
   EXPECT_EQ(wrong.exitCode, 1) << wrong.out;
   EXPECT_FALSE(wrong.json().contains("markerToCamera"));
   EXPECT_EQ(handeye::testing::readText(file("calibration.json")), "what was there before");
+}
+
+/// What a tired person does at seven in the morning: each must not end in a result.
+TEST_F(CommandLine, SlipsOfThePerson_AreNotCalledUsable)
+{
+  ASSERT_EQ(pivot().exitCode, 0);
+  const auto status = [](const CommandResult& result) { return result.json().at("status").get<std::string>(); };
+  for (const char* radius : { "12", "30", "1000" })
+  {
+    const CommandResult wrongRadius = run({ "calibrate", demo("calibration"), "--camera", demo("camera.yml"), "--stylus",
+      file("stylus.json"), "--ball-radius", radius, "--json" });
+    EXPECT_EQ(wrongRadius.exitCode, 1) << radius;
+    EXPECT_EQ(status(wrongRadius), "wrong_scale") << radius;
+  }
+
+  const std::string touched = handeye::testing::readText(demo("phantom_touched_points.txt"));
+  std::vector<std::string> lines;
+  std::istringstream text(touched);
+  for (std::string line; std::getline(text, line);)
+  {
+    if (!line.empty() && line[0] != '#')
+    {
+      lines.push_back(line);
+    }
+  }
+  std::string reversed;
+  for (const std::string& line : lines)
+  {
+    reversed = line + "\n" + reversed;
+  }
+  write("reversed.txt", reversed);
+  const CommandResult wrongOrder = run({ "landmarks", demo("phantom_model_points.txt"), file("reversed.txt"), "--json" });
+  EXPECT_EQ(wrongOrder.exitCode, 1);
+  EXPECT_FALSE(wrongOrder.json().contains("modelToPhantom"));
+
+  // The same few places again and again are no fifteen samples.
+  const std::filesystem::path repeated = folder_ / "repeated";
+  std::filesystem::create_directories(repeated / "frames");
+  const std::string tracking = handeye::testing::readText(Path(demo("calibration")) / "tracking.igs.mha");
+  std::string copied;
+  std::istringstream header(tracking);
+  std::vector<std::string> frames(15);
+  for (std::string line; std::getline(header, line);)
+  {
+    if (line.rfind("Seq_Frame", 0) == 0)
+    {
+      frames.at(std::stoul(line.substr(9, 4))) += line.substr(13) + "\n";
+    }
+    else if (line.rfind("ElementDataFile", 0) != 0)
+    {
+      copied += line + "\n";
+    }
+  }
+  for (std::size_t frame = 0; frame < 15; ++frame)
+  {
+    const std::string number = (frame < 10 ? "000" : "00") + std::to_string(frame);
+    const std::string source = "000" + std::to_string(frame % 4);
+    std::istringstream fields(frames.at(frame % 4));
+    for (std::string line; std::getline(fields, line);)
+    {
+      copied += "Seq_Frame" + number + line + "\n";
+    }
+    std::filesystem::copy_file(Path(demo("calibration")) / "frames" / (source + ".jpg"), repeated / "frames" / (number + ".jpg"));
+  }
+  std::ofstream(repeated / "tracking.igs.mha") << copied << "ElementDataFile = LOCAL\n";
+  const CommandResult fewPlaces = run({ "calibrate", repeated.string(), "--camera", demo("camera.yml"), "--stylus",
+    file("stylus.json"), "--ball-radius", "15", "--json" });
+  EXPECT_EQ(fewPlaces.exitCode, 1) << fewPlaces.out;
+  EXPECT_FALSE(fewPlaces.json().contains("markerToCamera"));
+}
+
+TEST_F(CommandLine, OverlayOutOfView_IsNotCalledDrawn)
+{
+  ASSERT_EQ(pivot().exitCode, 0);
+  ASSERT_EQ(calibrate().exitCode, 0);
+  ASSERT_EQ(landmarks().exitCode, 0);
+  json phantom = json::parse(handeye::testing::readText(file("phantom.json")));
+  phantom["modelToPhantom"][0][3] = 1e5;
+  write("phantom.json", phantom.dump());
+  const CommandResult overlay = run({ "overlay", demo("validation"), "--calibration", file("calibration.json"), "--model", model(),
+    "--registration", file("phantom.json"), "--json", "-o", file("pictures") });
+  EXPECT_EQ(overlay.exitCode, 1);
+  EXPECT_EQ(overlay.json().at("frames").at(0).at("status"), "out_of_view");
 }
 
 TEST_F(CommandLine, WrongUse_Exits2WithASentence)

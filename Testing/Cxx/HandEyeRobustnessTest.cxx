@@ -167,6 +167,57 @@ TEST(HandEyeRobustness, HalfOfTheSamplesAfterTheMarkerSlipped_AreNotUsable)
   EXPECT_TRUE(says(result.message, {}));
 }
 
+TEST(HandEyeRobustness, MarkerThatSlippedNearTheEnd_IsReported)
+{
+  Random random(42);
+  Samples samples = simulateSamples(webcam(), typicalMarkerToCamera(), 15, typicalCapture(), random);
+  for (std::size_t i = 10; i < samples.size(); ++i)
+  {
+    samples[i].tip_Marker = makeRigid({ 0.05, -0.1, 0.08 }, { 9, -6, 4 }) * samples[i].tip_Marker;
+  }
+  const HandEyeCalibrationResult result = calibrateHandEye(samples, { { webcam() } });
+  EXPECT_EQ(result.status, Status::MarkerMoved) << toString(result.status) << ": " << result.message;
+  EXPECT_TRUE(says(result.message, { "5 samples in a row", "slipped" }));
+}
+
+TEST(HandEyeRobustness, ApparentSizeThatDoesNotFit_IsReported)
+{
+  for (const double scale : { 1.3, 1.0, 0.75 })
+  {
+    Random random(43);
+    Samples samples = simulateSamples(webcam(), typicalMarkerToCamera(), 12, typicalCapture(), random);
+    for (HandEyeSample& sample : samples)
+    {
+      const Eigen::Vector3d tip_Camera = typicalMarkerToCamera() * sample.tip_Marker;
+      sample.apparentDistanceMm = scale * tip_Camera.norm();
+    }
+    const HandEyeCalibrationResult result = calibrateHandEye(samples, { { webcam() } });
+    EXPECT_EQ(result.status, scale == 1 ? Status::Ok : Status::WrongScale) << scale << ": " << result.message;
+    EXPECT_TRUE(scale == 1 || says(result.message, { "apparent size", "radius" }));
+  }
+}
+
+TEST(HandEyeRobustness, BallHeldStillForManyFrames_CountsAsOnePlace)
+{
+  Random random(44);
+  const auto places = simulateSamples(webcam(), typicalMarkerToCamera(), 12, typicalCapture(), random);
+  Samples few, many;
+  for (int repeat = 0; repeat < 5; ++repeat)
+  {
+    few.insert(few.end(), places.begin(), places.begin() + 4);
+    many.insert(many.end(), places.begin(), places.end());
+  }
+  const HandEyeCalibrationResult fewPlaces = calibrateHandEye(few, { { webcam() } });
+  EXPECT_EQ(fewPlaces.status, Status::TooFewSamples) << fewPlaces.message;
+  EXPECT_TRUE(says(fewPlaces.message, { "4 places", "at least 6" }));
+  const HandEyeCalibrationResult once = calibrateHandEye(places, { { webcam() } });
+  const HandEyeCalibrationResult often = calibrateHandEye(many, { { webcam() } });
+  ASSERT_TRUE(often.isUsable()) << often.message;
+  EXPECT_EQ(often.placeCount, 12);
+  EXPECT_EQ(often.usedCount, 60);
+  EXPECT_NEAR(often.covariance.trace() / once.covariance.trace(), 1, 0.01) << "looking five times at the same tells no more";
+}
+
 TEST(HandEyeRobustness, TooFewSamples_AreReported)
 {
   Random random(5);
@@ -307,6 +358,7 @@ TEST(HandEyeRobustness, BadOptions_ThrowASentence)
   expectRefused([](HandEyeCalibrationOptions& options) { options.rejectionFactor = 1; });
   expectRefused([](HandEyeCalibrationOptions& options) { options.maximumRejectedShare = 1; });
   expectRefused([](HandEyeCalibrationOptions& options) { options.maximumMisfit = 0; });
+  expectRefused([](HandEyeCalibrationOptions& options) { options.maximumScaleError = 0; });
   expectRefused([](HandEyeCalibrationOptions& options) { options.maximumPredictedErrorPx = 0; });
 }
 
@@ -314,10 +366,10 @@ TEST(HandEyeRobustness, ToString_NamesEachStatusDifferently)
 {
   std::set<std::string> names;
   for (const Status status : { Status::Ok, Status::TooFewSamples, Status::NoConsensus, Status::NotObservable, Status::NotConverged,
-         Status::Mirrored, Status::Ambiguous, Status::PoorFit, Status::TooUncertain })
+         Status::Mirrored, Status::Ambiguous, Status::PoorFit, Status::TooUncertain, Status::WrongScale, Status::MarkerMoved })
   {
     names.insert(toString(status));
   }
-  EXPECT_EQ(names.size(), 9U);
+  EXPECT_EQ(names.size(), 11U);
   EXPECT_EQ(names.count("unknown"), 0U);
 }

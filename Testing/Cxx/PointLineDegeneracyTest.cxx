@@ -133,7 +133,7 @@ TEST_P(PointLineDegeneracy, PointsOnAPlane_AreEnough)
   EXPECT_LT(result.rmsMm, 1e-9);
 }
 
-TEST(PointLineAmbiguity, PlaneSeenFromOneCentre_IsAmbiguousForLinesAndNotForRays)
+TEST(PointLineAmbiguity, PlaneSeenFromOneCentre_IsTakenToBeInFront)
 {
   // Mirrored in the centre, points still lie on their lines; for those of a plane this mirroring is a motion.
   Random random(7);
@@ -143,13 +143,31 @@ TEST(PointLineAmbiguity, PlaneSeenFromOneCentre_IsAmbiguousForLinesAndNotForRays
     points_Lines.emplace_back(random.uniform(-100, 100), random.uniform(-80, 80), 300);
   }
   const Pairs pairs = pairsThrough(points_Lines, true, random);
-  const PointLineResult lines = registerPointsToLines(pairs, pointLineOptions(Method::Global, false));
-  EXPECT_EQ(lines.status, Status::Ambiguous);
-  EXPECT_TRUE(says(lines.message, { "two different solutions", "depth" }));
-  const PointLineResult rays = registerPointsToLines(pairs, pointLineOptions(Method::Global, true));
-  EXPECT_EQ(rays.status, Status::Ok) << rays.message;
-  EXPECT_EQ(pointsInFront(pairs, rays.pointsToLines), 10);
-  EXPECT_LT(rays.rmsMm, 1e-9);
+  for (const bool linesAreRays : { false, true })
+  {
+    const PointLineResult result = registerPointsToLines(pairs, pointLineOptions(Method::Global, linesAreRays));
+    EXPECT_EQ(result.status, Status::Ok) << result.message;
+    EXPECT_EQ(pointsInFront(pairs, result.pointsToLines), 10);
+    EXPECT_LT(result.rmsMm, 1e-9);
+  }
+}
+
+TEST(PointLineAmbiguity, LinesAcrossOneAxis_AreAmbiguous)
+{
+  // Half a turn about the axis that all lines cross at right angles puts every point on its line again, on the other side.
+  Random random(12);
+  Pairs pairs;
+  for (int i = 0; i < 10; ++i)
+  {
+    const double heading = random.uniform(0, 2 * EIGEN_PI), height = random.uniform(-100, 100);
+    const Eigen::Vector3d origin(0, 0, height), direction(std::cos(heading), std::sin(heading), 0);
+    const double along = (i % 2 ? 1 : -1) * random.uniform(20, 100);
+    pairs.push_back({ origin + along * direction, origin, direction, 1 });
+  }
+  const PointLineResult result = registerPointsToLines(pairs, pointLineOptions(Method::Global, false));
+  EXPECT_EQ(result.status, Status::Ambiguous) << toString(result.status);
+  EXPECT_FALSE(result.isUsable());
+  EXPECT_TRUE(says(result.message, { "two different solutions", "depth" }));
 }
 
 TEST(PointLineMirrored, RaysThatPointAway_AreReported)

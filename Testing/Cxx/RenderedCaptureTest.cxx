@@ -149,6 +149,6 @@ TEST_P(RenderedCapture, PaperPipeline_RunsAndNeverClaimsNonsense)
 INSTANTIATE_TEST_SUITE_P(All, RenderedCapture,
   ::testing::Values(Expectation{ "dev_webcam", 0.15, 0.4, 1.5 }, Expectation{ "dev_laparoscope", 0.2, 0.5, 1.5 },
     Expectation{ "table_webcam", 0.2, 0.4, 1.6 }, Expectation{ "tissue_laparoscope", 0.5, 2.0, 2.0 }),
-  [](const auto& info) { return std::string(info.param.name); });
+  [](const auto& capture) { return std::string(capture.param.name); });
 
 }  // namespace
