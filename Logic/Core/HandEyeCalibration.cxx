@@ -133,8 +133,8 @@ void conclude(const Samples& samples, const std::vector<int>& used, const Eyes& 
   {
     result.status = Status::MarkerMoved;
     result.message = std::to_string(samples.size() - std::size_t(result.usedCount)) +
-      " samples in a row, at one end of the capture, disagree with the others: the marker on the camera or the stylus' marker has "
-      "slipped";
+      " samples in a row, at one end of the capture, disagree with the others: " +
+      (eyes.size() > 1 ? "the relation of the eyes is wrong, or a marker has slipped" : "a marker has slipped");
   }
   else if (result.isUsable() && !(result.predicted.meanPx <= options.maximumPredictedErrorPx))
   {

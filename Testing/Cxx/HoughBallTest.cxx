@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 using namespace handeye;
 using namespace handeye::test;
 
@@ -55,6 +57,7 @@ TEST(HoughBall, AsADetection_GivesRayAndDistance)
   ASSERT_TRUE(found.isFound()) << found.message;
   EXPECT_TRUE(pointNear(found.ray_Camera, ball.center_Camera.normalized(), 0.004));
   EXPECT_NEAR(found.distanceMm / ball.center_Camera.norm(), 1, 0.08);
+  EXPECT_GE(std::sqrt(found.covariance_Image.trace() / 2), 1) << "it is no sub-pixel method, and says so";
   EXPECT_TRUE(pointNear(laparoscope().project(found.ray_Camera).point_Image, found.ball_Image, 1e-6));
 }
 

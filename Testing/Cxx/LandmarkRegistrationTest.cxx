@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -157,6 +158,34 @@ TEST(LandmarkRegistration, MirrorImage_IsReported)
   EXPECT_FALSE(result.isUsable());
 }
 
+TEST(LandmarkRegistration, OneLandmarkThatSlipped_IsNamed)
+{
+  Random random(8);
+  Points touched = moved(Vertebra, random.rigid(100), 0.3, random);
+  touched[4] += Eigen::Vector3d(0, 25, -10);
+  const LandmarkRegistrationResult result = registerLandmarks(Vertebra, touched);
+  EXPECT_EQ(result.status, Status::PoorFit) << result.rmsMm;
+  EXPECT_TRUE(says(result.message, { "touch landmark 5 again", "mm (RMS)" }));
+  EXPECT_EQ(result.residualsMm.size(), Vertebra.size()) << "there to look at";
+}
+
+TEST(LandmarkRegistration, OtherOrderOrUnit_IsAPoorFit)
+{
+  Random random(9);
+  Points shuffled = Vertebra, metres = Vertebra;
+  std::rotate(shuffled.begin(), shuffled.begin() + 2, shuffled.end());
+  for (Eigen::Vector3d& point : metres)
+  {
+    point /= 1000;
+  }
+  for (const Points& wrong : { shuffled, metres })
+  {
+    const LandmarkRegistrationResult result = registerLandmarks(Vertebra, moved(wrong, random.rigid(100), 0, random));
+    EXPECT_EQ(result.status, Status::PoorFit) << toString(result.status);
+    EXPECT_TRUE(says(result.message, { "order", "mm" }));
+  }
+}
+
 TEST(LandmarkRegistration, ThreePointsMirrored_CannotBeTold)
 {
   // Three points lie on a plane: mirrored, they are a motion of themselves.
@@ -178,10 +207,10 @@ TEST(LandmarkRegistration, BadInput_ThrowsASentence)
 TEST(LandmarkRegistration, ToString_NamesEachStatusDifferently)
 {
   std::set<std::string> names;
-  for (const Status status : { Status::Ok, Status::TooFewPoints, Status::Collinear, Status::Mirrored })
+  for (const Status status : { Status::Ok, Status::TooFewPoints, Status::Collinear, Status::Mirrored, Status::PoorFit })
   {
     names.insert(toString(status));
   }
-  EXPECT_EQ(names.size(), 4U);
+  EXPECT_EQ(names.size(), 5U);
   EXPECT_EQ(names.count("unknown"), 0U);
 }

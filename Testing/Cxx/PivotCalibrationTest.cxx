@@ -222,14 +222,42 @@ TEST(PivotCalibration, HalfOfTheRecordingAtAnotherDivot_IsReported)
   EXPECT_FALSE(result.isUsable());
 }
 
-TEST(PivotCalibration, TipThatSlidesAbout_IsTooNoisy)
+TEST(PivotCalibration, TipThatJitters_IsTooNoisy)
 {
   Random random(13);
   PivotSimulation stylus;
   stylus.sigmaMm = 2.5;
-  const PivotCalibrationResult result = calibratePivot(stylus.recordPivoting(200, 35 * Degree, random));
+  const PivotCalibrationResult result = calibratePivot(stylus.recordPivoting(2000, 35 * Degree, random));
   EXPECT_EQ(result.status, Status::TooNoisy) << result.message;
   EXPECT_TRUE(says(result.message, { "mm (RMS)", "3.0 mm" }));
+}
+
+TEST(PivotCalibration, TipThatCreepsAlong_IsReported)
+{
+  Random random(15);
+  PivotSimulation stylus;
+  Poses poses;
+  for (int i = 0; i < 300; ++i)
+  {
+    stylus.pivot_Tracker.x() += 1.6 / 300;
+    poses.push_back(stylus.recordPivoting(1, 35 * Degree, random).front());
+  }
+  const PivotCalibrationResult result = calibratePivot(poses);
+  EXPECT_EQ(result.status, Status::TipMoved) << toString(result.status) << ": " << result.message;
+  EXPECT_TRUE(says(result.message, { "first and the second half", "mm" }));
+}
+
+TEST(PivotCalibration, PosesInMetres_GiveAnImplausibleTip)
+{
+  Random random(16);
+  Poses poses = PivotSimulation().recordPivoting(100, 35 * Degree, random);
+  for (Eigen::Isometry3d& pose : poses)
+  {
+    pose.translation() /= 1000;
+  }
+  const PivotCalibrationResult result = calibratePivot(poses);
+  EXPECT_EQ(result.status, Status::ImplausibleTip) << toString(result.status) << ": " << result.message;
+  EXPECT_TRUE(says(result.message, { "0.2 mm from the marker", "poses in mm" }));
 }
 
 TEST(PivotCalibration, BadInput_Throws)
@@ -250,10 +278,10 @@ TEST(PivotCalibration, ToString_NamesEachStatusDifferently)
 {
   std::set<std::string> names;
   for (const Status status : { Status::Ok, Status::TooFewPoses, Status::RotationAboutOneAxis, Status::TooLittleRotation,
-         Status::TooManyRejected, Status::TooNoisy })
+         Status::TooManyRejected, Status::TooNoisy, Status::TipMoved, Status::ImplausibleTip })
   {
     names.insert(toString(status));
   }
-  EXPECT_EQ(names.size(), 6U);
+  EXPECT_EQ(names.size(), 8U);
   EXPECT_EQ(names.count("unknown"), 0U);
 }
