@@ -34,6 +34,13 @@ std::string oneDigit(double value)
   return text.str();
 }
 
+std::string threeDigits(double value)
+{
+  std::ostringstream text;
+  text << std::setprecision(3) << value;
+  return text.str();
+}
+
 Status translate(PointLineResult::Status status)
 {
   switch (status)
@@ -126,7 +133,7 @@ void conclude(const Samples& samples, const std::vector<int>& used, const Eyes& 
   else if (result.isUsable() && std::abs(std::log(scale)) > std::log(1 + options.maximumScaleError))
   {
     result.status = Status::WrongScale;
-    result.message = "by its apparent size the ball is " + oneDigit(scale) +
+    result.message = "by its apparent size the ball is " + threeDigits(scale) +
       " times as far away as by tracking: check the ball's radius (mm) and the focal length of the camera file";
   }
   else if (result.isUsable() && isOneRun(result))

@@ -31,9 +31,9 @@ json readResult(const Path& path, const char* key)
   {
     object = json::parse(file);
   }
-  catch (const json::exception& error)
+  catch (const json::exception&)
   {
-    throw io::FileError(path, std::string("this is not a JSON file: ") + error.what());
+    throw io::FileError(path, std::string("this is not a JSON file; expected one with \"") + key + "\", as handeye writes it");
   }
   if (!object.is_object())
   {
@@ -49,7 +49,10 @@ json readResult(const Path& path, const char* key)
   }
   if (!object.contains(key))
   {
-    throw io::FileError(path, std::string("the key \"") + key + "\" is missing");
+    const json schema = object.value("schema", json());
+    throw io::FileError(path,
+      std::string("the key \"") + key + "\" is missing" +
+        (schema.is_string() ? ", this is a file of the kind " + schema.dump() : std::string()));
   }
   return object;
 }

@@ -135,7 +135,9 @@ std::string page(const ValidationStepResult& result)
     if (frame.status != "image_missing")
     {
       const std::string name = frameName(frame.captured.frame);
-      html += "<figure><img src='" + name + "' alt='frame " + std::to_string(frame.captured.frame) + "'></figure>\n";
+      const std::string caption = "frame " + std::to_string(frame.captured.frame) + ": " +
+        (frame.status == "ok" ? format("%.2f px", frame.validated->errorPx) : frame.status);
+      html += "<figure><img src='" + name + "' alt='" + caption + "'><figcaption>" + caption + "</figcaption></figure>\n";
     }
   }
   return html + "</body></html>\n";

@@ -26,6 +26,8 @@ int runLandmarks(const LandmarksArguments& arguments)
     registerLandmarks(io::readPoints(arguments.model), io::readPoints(arguments.touched));
   if (registration.isUsable())
   {
+    arguments.output.say("model's landmarks    " + arguments.model);
+    arguments.output.say("touched landmarks    " + arguments.touched);
     arguments.output.say("modelToPhantom (mm)");
     arguments.output.say(matrixLines(registration.modelToPhantom.matrix(), "  ", 4));
     arguments.output.say(format("residual             %.3f mm RMS", registration.rmsMm));
