@@ -75,8 +75,8 @@ double apparentScale(const Samples& samples, const Eyes& eyes, const HandEyeCali
   return ratios.empty() ? 1 : median(ratios);
 }
 
-/// Whether what was left out is a run of four or more frames at the beginning or the end of one eye's capture: something slipped there.
-bool isOneRun(const HandEyeCalibrationResult& result)
+/// The samples that were left out, if they are a run of four or more at the beginning or the end of the capture; otherwise none.
+std::vector<int> leftOutRun(const HandEyeCalibrationResult& result)
 {
   constexpr std::ptrdiff_t fewest = 4;
   const auto isUsed = [](const HandEyeCalibrationResult::Sample& sample) { return sample.used; };
@@ -84,7 +84,33 @@ bool isOneRun(const HandEyeCalibrationResult& result)
   const auto lastUsed = std::find_if(result.samples.rbegin(), result.samples.rend(), isUsed);
   const std::ptrdiff_t before = firstUsed - result.samples.begin(), after = lastUsed - result.samples.rbegin();
   const std::ptrdiff_t leftOut = std::ptrdiff_t(result.samples.size()) - result.usedCount;
-  return leftOut >= fewest && (before == leftOut || after == leftOut);
+  std::vector<int> run;
+  if (leftOut >= fewest && (before == leftOut || after == leftOut))
+  {
+    for (std::ptrdiff_t k = 0; k < leftOut; ++k)
+    {
+      run.push_back(int(before == leftOut ? k : result.usedCount + k));
+    }
+  }
+  return run;
+}
+
+/// Whether something slipped: what was left out is one run, and agrees with itself on another solution.
+bool hasSlipped(
+  const Samples& samples, const Eyes& eyes, const HandEyeCalibrationOptions& options, const HandEyeCalibrationResult& result)
+{
+  const std::vector<int> run = leftOutRun(result);
+  if (run.empty())
+  {
+    return false;
+  }
+  const PointLineResult other = solveHandEye(samples, run, eyes, options, PointLineOptions::Method::Global, WeightRounds);
+  if (!other.isUsable())
+  {
+    return false;
+  }
+  const std::vector<double> normalized = normalizedResiduals(samples, eyes, other.pointsToLines, options);
+  return std::all_of(run.begin(), run.end(), [&](int i) { return normalized[std::size_t(i)] < options.rejectionFactor; });
 }
 
 /// Residuals of every sample, sums over the used ones, covariance and verdict.
@@ -136,11 +162,11 @@ void conclude(const Samples& samples, const std::vector<int>& used, const Eyes& 
     result.message = "by its apparent size the ball is " + threeDigits(scale) +
       " times as far away as by tracking: check the ball's radius (mm) and the focal length of the camera file";
   }
-  else if (result.isUsable() && isOneRun(result))
+  else if (result.isUsable() && hasSlipped(samples, eyes, options, result))
   {
     result.status = Status::MarkerMoved;
     result.message = std::to_string(samples.size() - std::size_t(result.usedCount)) +
-      " samples in a row, at one end of the capture, disagree with the others: " +
+      " samples in a row, at one end of the capture, agree with each other but not with the rest: " +
       (eyes.size() > 1 ? "the relation of the eyes is wrong, or a marker has slipped" : "a marker has slipped");
   }
   else if (result.isUsable() && !(result.predicted.meanPx <= options.maximumPredictedErrorPx))

@@ -82,7 +82,7 @@ struct HandEyeCalibrationResult
     Mirrored,       ///< every solution has the ball behind the camera
     Ambiguous,      ///< two different solutions fit equally well
     WrongScale,     ///< the ball's apparent size does not fit its tracked distance
-    MarkerMoved,    ///< the first or the last samples in a row disagree with the others
+    MarkerMoved,    ///< the first or the last samples in a row agree with each other, but not with the rest
     PoorFit,        ///< the solution does not explain its samples
     TooUncertain    ///< the predicted error is too large to be of use
   };

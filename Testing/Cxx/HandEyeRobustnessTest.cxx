@@ -167,6 +167,23 @@ TEST(HandEyeRobustness, HalfOfTheSamplesAfterTheMarkerSlipped_AreNotUsable)
   EXPECT_TRUE(says(result.message, {}));
 }
 
+TEST(HandEyeRobustness, GrossErrorsInARowAtTheStart_AreLeftOutAndNoSlip)
+{
+  Random random(43);
+  Samples samples = simulateSamples(webcam(), typicalMarkerToCamera(), 15, typicalCapture(), random);
+  const Eigen::Vector3d errors[] = { { 60, -20, 10 }, { -35, 50, 40 }, { 15, 70, -60 }, { -80, -10, 25 } };
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    samples[i].tip_Marker += errors[i];
+  }
+  const HandEyeCalibrationResult result = calibrateHandEye(samples, { { webcam() } });
+  ASSERT_TRUE(result.isUsable()) << toString(result.status) << ": " << result.message;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+  {
+    EXPECT_EQ(result.samples[i].used, i >= 4) << i;
+  }
+}
+
 TEST(HandEyeRobustness, MarkerThatSlippedNearTheEnd_IsReported)
 {
   Random random(42);
