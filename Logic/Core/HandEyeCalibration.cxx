@@ -5,15 +5,14 @@
 #include "HandEyeConsensus.h"
 #include "HandEyeResiduals.h"
 #include "HandEyeUncertainty.h"
+#include "NumberWords.h"
 #include "Statistics.h"
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 
 namespace handeye
@@ -26,20 +25,6 @@ using Samples = HandEyeSamples;
 using Status = HandEyeCalibrationResult::Status;
 
 constexpr int WeightRounds = 4;
-
-std::string oneDigit(double value)
-{
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(1) << value;
-  return text.str();
-}
-
-std::string threeDigits(double value)
-{
-  std::ostringstream text;
-  text << std::setprecision(3) << value;
-  return text.str();
-}
 
 Status translate(PointLineResult::Status status)
 {
@@ -153,13 +138,13 @@ void conclude(const Samples& samples, const std::vector<int>& used, const Eyes& 
   else if (result.isUsable() && !(misfit <= options.maximumMisfit))
   {
     result.status = Status::PoorFit;
-    result.message = "the solution misses its own samples by " + oneDigit(result.pointToLineRmsMm) +
+    result.message = "the solution misses its own samples by " + fixedDigits(result.pointToLineRmsMm, 1) +
       " mm (RMS): some of them show something else than the ball, or the stylus' tip is wrong";
   }
   else if (result.isUsable() && std::abs(std::log(scale)) > std::log(1 + options.maximumScaleError))
   {
     result.status = Status::WrongScale;
-    result.message = "by its apparent size the ball is " + threeDigits(scale) +
+    result.message = "by its apparent size the ball is " + significantDigits(scale, 3) +
       " times as far away as by tracking: check the ball's radius (mm) and the focal length of the camera file";
   }
   else if (result.isUsable() && hasSlipped(samples, eyes, options, result))
@@ -172,14 +157,14 @@ void conclude(const Samples& samples, const std::vector<int>& used, const Eyes& 
   else if (result.isUsable() && !(result.predicted.meanPx <= options.maximumPredictedErrorPx))
   {
     result.status = Status::TooUncertain;
-    result.message = "the placements leave " + oneDigit(result.predicted.meanPx) +
+    result.message = "the placements leave " + fixedDigits(result.predicted.meanPx, 1) +
       " px of predicted error over the working volume: spread them over the image and in depth";
   }
   else if (result.isUsable())
   {
     const char* verdict = result.predicted.meanPx < 1 ? "good: " : result.predicted.meanPx < 3 ? "fair: " : "poor: ";
-    result.message = verdict + oneDigit(result.predicted.meanPx) + " px predicted over the working volume (" +
-      oneDigit(result.predicted.maximumPx) + " px at worst), " + std::to_string(result.usedCount) + " of " +
+    result.message = verdict + fixedDigits(result.predicted.meanPx, 1) + " px predicted over the working volume (" +
+      fixedDigits(result.predicted.maximumPx, 1) + " px at worst), " + std::to_string(result.usedCount) + " of " +
       std::to_string(samples.size()) + " samples used";
   }
 }

@@ -40,7 +40,8 @@ struct HandEyeCalibrationOptions
   /// error; sets the samples' weights.
   double trackingSigmaMm = 0.35;
   double segmentationSigmaPx = 0.25;
-  /// Fewer places of the ball than this give no calibration. Samples of one place (a video of a ball that is held still) count as one.
+  /// Fewer places of the ball than this give no calibration. Samples of one place (a video of a ball that is held still) count as
+  /// one.
   int minimumSamples = 6;
   /// Look for samples that disagree with the rest and leave them out.
   bool rejectOutliers = true;
@@ -51,8 +52,8 @@ struct HandEyeCalibrationOptions
   /// Largest scatter of the used samples in multiples of what is expected of them; more is no calibration, whatever its covariance
   /// says.
   double maximumMisfit = 4;
-  /// Largest deviation of the distances by apparent size from those by tracking, as a share: beyond it the ball's radius or the focal length
-  /// is wrong. Shading makes a ball look up to 8 % small.
+  /// Largest deviation of the distances by apparent size from those by tracking, as a share: beyond it the ball's radius or the
+  /// focal length is wrong. Shading makes a ball look up to 8 % small.
   double maximumScaleError = 0.15;
   /// Largest mean predicted projection error (px) over the working volume of a result that is called usable.
   double maximumPredictedErrorPx = 20;

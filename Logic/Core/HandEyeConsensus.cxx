@@ -17,7 +17,8 @@ namespace
 constexpr std::size_t MinimalSet = 4;
 constexpr int MostDraws = 300;
 constexpr int RejectionRounds = 10;
-/// However much the samples scatter, the limit is not drawn further than this: a set that contradicts itself must not excuse itself.
+/// However much the samples scatter, the limit is not drawn further than this: a set that contradicts itself must not excuse
+/// itself.
 constexpr double LargestScale = 2;
 
 /// The scatter of samples in multiples of what is expected of them, for the limit of agreement.

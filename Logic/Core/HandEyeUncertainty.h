@@ -14,8 +14,8 @@ namespace handeye
 double estimateCovariance(
   const HandEyeSamples& samples, const Eyes& eyes, const HandEyeCalibrationOptions& options, HandEyeCalibrationResult& result);
 
-/// For each sample the share that it has in its place of the ball: 1 over the number of used samples there. Samples are of one place if their
-/// tips are within 2 mm. 0 for samples that are not used.
+/// For each sample the share that it has in its place of the ball: 1 over the number of used samples there. Samples are of one
+/// place if their tips are within 2 mm. 0 for samples that are not used.
 std::vector<double> placeShares(const HandEyeSamples& samples, const std::vector<int>& used);
 
 }  // namespace handeye

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LandmarkRegistration.h"
 
+#include "NumberWords.h"
 #include "Statistics.h"
 
 #include <Eigen/Dense>
 
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 namespace handeye
@@ -70,18 +70,11 @@ double rmsWithout(const Points& points_Model, const Points& points_Phantom, std:
   return std::sqrt(rest.colwise().squaredNorm().mean());
 }
 
-std::string oneDigit(double value)
-{
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.1f", value);
-  return text;
-}
-
 /// What is wrong: one landmark, or the whole.
 std::string describePoorFit(const Points& points_Model, const Points& points_Phantom, double rmsMm)
 {
-  std::string text = "the landmarks differ by " + oneDigit(rmsMm) + " mm (RMS), more than the " + oneDigit(LargestRmsMm) +
-    " mm of a usable registration: ";
+  std::string text = "the landmarks differ by " + fixedDigits(rmsMm, 1) + " mm (RMS), more than the " +
+    fixedDigits(LargestRmsMm, 1) + " mm of a usable registration: ";
   std::size_t worst = 0;
   double least = rmsMm;
   for (std::size_t i = 0; points_Model.size() > 4 && i < points_Model.size(); ++i)
@@ -94,7 +87,7 @@ std::string describePoorFit(const Points& points_Model, const Points& points_Pha
     }
   }
   return least <= LargestRmsMm
-    ? text + "touch landmark " + std::to_string(worst + 1) + " again, without it " + oneDigit(least) + " mm are left"
+    ? text + "touch landmark " + std::to_string(worst + 1) + " again, without it " + fixedDigits(least, 1) + " mm are left"
     : text + "check their order and that both lists are in mm";
 }
 

@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PivotCalibration.h"
 
+#include "NumberWords.h"
 #include "Statistics.h"
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 
 namespace handeye
@@ -105,13 +104,6 @@ std::vector<int> inliers(const std::vector<double>& lengths, double factor)
   return kept;
 }
 
-std::string fixed(double value, int digits)
-{
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
-}
-
 /// How far the tip moved between the two halves of the used poses: the difference of where it stood on average.
 double tipMotion(const Poses& poses, const PivotCalibrationResult& result)
 {
@@ -132,7 +124,7 @@ void judge(PivotCalibrationResult& result, std::size_t poseCount, double tipMoti
   if (result.rotationSpread(1) < options.minimumRotation)
   {
     result.status = Status::TooLittleRotation;
-    result.message = "the stylus was hardly turned (" + fixed(result.rotationSpread(2) * degrees, 1) +
+    result.message = "the stylus was hardly turned (" + fixedDigits(result.rotationSpread(2) * degrees, 1) +
       " deg at most): tilt it by 30 deg or more in all directions while its tip rests in the divot";
   }
   else if (result.rotationSpread(0) < options.minimumRotation)
@@ -149,27 +141,27 @@ void judge(PivotCalibrationResult& result, std::size_t poseCount, double tipMoti
   else if (!(result.tip_Stylus.norm() >= options.nearestTipMm && result.tip_Stylus.norm() <= options.furthestTipMm))
   {
     result.status = Status::ImplausibleTip;
-    result.message = "the tip came out " + fixed(result.tip_Stylus.norm(), 1) + " mm from the marker, expected " +
-      fixed(options.nearestTipMm, 0) + " to " + fixed(options.furthestTipMm, 0) +
+    result.message = "the tip came out " + fixedDigits(result.tip_Stylus.norm(), 1) + " mm from the marker, expected " +
+      fixedDigits(options.nearestTipMm, 0) + " to " + fixedDigits(options.furthestTipMm, 0) +
       " mm: are the poses in mm, and do they map the stylus to the tracker?";
   }
   else if (!(tipMotionMm <= options.maximumTipMotionMm))
   {
     result.status = Status::TipMoved;
-    result.message = "the tip moved by " + fixed(tipMotionMm, 2) +
-      " mm between the first and the second half of the recording, more than the " + fixed(options.maximumTipMotionMm, 1) +
+    result.message = "the tip moved by " + fixedDigits(tipMotionMm, 2) +
+      " mm between the first and the second half of the recording, more than the " + fixedDigits(options.maximumTipMotionMm, 1) +
       " mm that a usable result allows: it slipped in the divot, or the divot moved";
   }
   else if (result.rmsMm > options.maximumRmsMm)
   {
     result.status = Status::TooNoisy;
-    result.message = "the tip moved by " + fixed(result.rmsMm, 2) + " mm (RMS) while pivoting, more than the " +
-      fixed(options.maximumRmsMm, 1) + " mm that a usable result allows";
+    result.message = "the tip moved by " + fixedDigits(result.rmsMm, 2) + " mm (RMS) while pivoting, more than the " +
+      fixedDigits(options.maximumRmsMm, 1) + " mm that a usable result allows";
   }
   else
   {
     result.status = Status::Ok;
-    result.message = "tip found with " + fixed(result.rmsMm, 2) + " mm RMS over " + std::to_string(result.used.size()) +
+    result.message = "tip found with " + fixedDigits(result.rmsMm, 2) + " mm RMS over " + std::to_string(result.used.size()) +
       " poses, " + std::to_string(result.rejected.size()) + " left out";
   }
 }

@@ -133,7 +133,8 @@ void solveGlobal(const Pairs& pairs, const PointLineOptions& options, PointLineR
   const double indistinguishable = 1.0001 * chosen->cost + roundingCost(pairs);
   const auto firstWorse =
     std::find_if(chosen, minima.end(), [&](const Minimum& minimum) { return minimum.cost > indistinguishable; });
-  // Points of a plane seen along lines through one centre have a twin behind it: directions have a sense, so the one in front is meant.
+  // Points of a plane seen along lines through one centre have a twin behind it: directions have a sense, so the one in front is
+  // meant.
   const auto inFront = std::find_if(chosen, firstWorse, isInFront);
   chosen = inFront != firstWorse ? inFront : chosen;
   result.pointsToLines = transform(*chosen);
