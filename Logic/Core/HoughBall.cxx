@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HoughBall.h"
 
-#include "BallColor.h"
-
 #include <opencv2/imgproc.hpp>
 
 #include <vector>
@@ -17,7 +15,7 @@ std::optional<HoughCircle> findHoughCircle(const cv::Mat& image, const HoughBall
   red.hueToleranceDeg = options.hueToleranceDeg;
   red.minimumSaturation = options.minimumSaturation;
   red.minimumValue = options.minimumValue;
-  cv::Mat smoothed = ballColorMask(toHsv(image), red);
+  cv::Mat smoothed = ballColorMask(toHsv(image, options.channelOrder), red);
   cv::GaussianBlur(smoothed, smoothed, { options.gaussianSizePx, options.gaussianSizePx }, options.gaussianSigmaPx);
   cv::medianBlur(smoothed, smoothed, options.medianSizePx);
   std::vector<cv::Vec3f> circles;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "BallColor.h"
+
 #include <opencv2/core.hpp>
 
 #include <optional>
@@ -25,6 +27,7 @@ struct HoughBallOptions
   double accumulatorScale = 2;  ///< Hough: image resolution over accumulator resolution
   double cannyThreshold = 100;
   double accumulatorThreshold = 30;
+  BallColor::ChannelOrder channelOrder = BallColor::ChannelOrder::Bgr;
 };
 
 struct HoughCircle
