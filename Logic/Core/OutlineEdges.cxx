@@ -20,8 +20,10 @@ constexpr double Pi = double(EIGEN_PI);
 constexpr double CoarseStepPx = 0.5;
 constexpr double FineStepPx = 0.25;
 constexpr double MinimumContrast = 0.08;
-/// How much the light varies: by noise (of full light), and along its own colour by shading (of itself).
+/// How much the light varies: by noise (of full light), and along its own colour by shading (of itself). As long as the outline is not
+/// known the light that shading takes away towards the limb must not be taken for it: there it is the colour that counts.
 constexpr float LightNoise = 0.02F;
+constexpr float ShadingRough = 1.0F;
 constexpr float ShadingInside = 0.1F;
 constexpr float ShadingOutside = 0.1F;
 /// Width of the stretch inside and outside over which the light on either side is averaged.
@@ -81,8 +83,10 @@ private:
 /// The light on either side of the edge.
 struct Sides
 {
-  Eigen::Vector3f inside;
-  Eigen::Vector3f outside;
+  Eigen::Vector3f inside = Eigen::Vector3f::Zero();
+  Eigen::Vector3f outside = Eigen::Vector3f::Zero();
+  Eigen::Vector3f insideChange = Eigen::Vector3f::Zero();   ///< from further in to `inside`
+  Eigen::Vector3f outsideChange = Eigen::Vector3f::Zero();  ///< from further out to `outside`
 
   float contrast() const { return (inside - outside).norm(); }
 
@@ -90,10 +94,10 @@ struct Sides
   /// for light that varies by noise and, on either side, along its own colour by shading. A ball that darkens towards its limb
   /// keeps its colour; so where the background differs in colour its brightness hardly counts, and where it does not, brightness is
   /// what there is.
-  Eigen::Vector3f discriminant() const
+  Eigen::Vector3f discriminant(float shadingInside) const
   {
     const Eigen::Matrix3f variation = LightNoise * LightNoise * Eigen::Matrix3f::Identity() +
-      ShadingInside * ShadingInside * inside * inside.transpose() + ShadingOutside * ShadingOutside * outside * outside.transpose();
+      shadingInside * shadingInside * inside * inside.transpose() + ShadingOutside * ShadingOutside * outside * outside.transpose();
     const Eigen::Vector3f across = inside - outside;
     const Eigen::Vector3f direction = variation.inverse() * across;
     return direction / direction.dot(across);
@@ -111,11 +115,12 @@ struct Step
 class Profiles
 {
 public:
-  Profiles(const LinearLightImage& image, const SphereCone::Outline& outline, double reachPx, double referencePx, double stepPx)
+  Profiles(const LinearLightImage& image, const SphereCone::Outline& outline, double reachPx, double referencePx, double stepPx, float shading)
     : step_(stepPx)
+    , shading_(shading)
     , reach_(reachPx)
     , reference_(referencePx)
-    , half_(int(std::ceil((reachPx + referencePx + ReferencePx) / stepPx)))
+    , half_(int(std::ceil((reachPx + referencePx + 2 * ReferencePx) / stepPx)))
     , isUsable_(outline.points_Image.size())
     , light_(outline.points_Image.size() * std::size_t(2 * half_ + 1))
   {
@@ -134,7 +139,7 @@ public:
   std::size_t count() const { return isUsable_.size(); }
   bool isUsable(std::size_t i) const { return isUsable_[i]; }
 
-  /// Where the light changes most.
+  /// Where the light changes most, changes along the ball's own colour counting less.
   double steepest(std::size_t i) const
   {
     const int gap = std::max(1, int(1.0 / step_)), limit = int(reach_ / step_);
@@ -142,10 +147,14 @@ public:
     int where = 0;
     for (int k = -limit; k <= limit; ++k)
     {
-      const float change = (light(i)[k + half_ + gap] - light(i)[k + half_ - gap]).squaredNorm();
-      if (change > most)
+      const Eigen::Vector3f &inside = light(i)[k + half_ - gap], change = light(i)[k + half_ + gap] - inside;
+      const float size = inside.norm(), along = size > 0 ? change.dot(inside) / size : 0;
+      const float across = std::max(0.0F, change.squaredNorm() - along * along);
+      const float shading = shading_ * size;
+      const float distinct = across / (LightNoise * LightNoise) + along * along / (LightNoise * LightNoise + shading * shading);
+      if (distinct > most)
       {
-        most = change;
+        most = distinct;
         where = k;
       }
     }
@@ -155,14 +164,19 @@ public:
   /// The light on either side of a place.
   Sides sides(std::size_t i, double centre) const
   {
-    return { mean(i, centre - reference_ - ReferencePx, centre - reference_),
-      mean(i, centre + reference_, centre + reference_ + ReferencePx) };
+    const double far = reference_ + ReferencePx, furthest = far + ReferencePx;
+    Sides sides;
+    sides.inside = mean(i, centre - far, centre - reference_);
+    sides.outside = mean(i, centre + reference_, centre + far);
+    sides.insideChange = sides.inside - mean(i, centre - furthest, centre - far);
+    sides.outsideChange = sides.outside - mean(i, centre + far, centre + furthest);
+    return sides;
   }
 
   /// The step by the area under the profile, which uses every sample; false unless the profile falls once.
   bool byArea(std::size_t i, const Sides& sides, double centre, Step& found) const
   {
-    const Eigen::Vector3f direction = sides.discriminant();
+    const Eigen::Vector3f direction = sides.discriminant(shading_);
     const float offset = sides.outside.dot(direction);
     const int first = index((centre - reference_) / step_), last = index((centre + reference_) / step_);
     double area = 0, spread = 0;
@@ -184,7 +198,7 @@ public:
   /// The blurred step that fits the profile best.
   bool byMatching(std::size_t i, const Sides& sides, double blurPx, double& place) const
   {
-    const Eigen::Vector3f direction = sides.discriminant();
+    const Eigen::Vector3f direction = sides.discriminant(shading_);
     const float offset = sides.outside.dot(direction);
     const double blur = std::max(blurPx, SharpestPx), start = place;
     for (int round = 0; round < MatchingRounds; ++round)
@@ -206,6 +220,15 @@ public:
     return true;
   }
 
+  /// The place that is found moves by this much per level that a side is wrong by; and a side is wrong by what it changes on the way to
+  /// the edge.
+  double shadingPx(const Sides& sides, double blurPx) const
+  {
+    const Eigen::Vector3f direction = sides.discriminant(shading_);
+    const double wrong = std::hypot(double(sides.insideChange.dot(direction)), double(sides.outsideChange.dot(direction)));
+    return std::sqrt(Pi) * std::max(blurPx, SharpestPx) * wrong;
+  }
+
 private:
   int index(double steps) const { return std::clamp(int(std::lround(steps)) + half_, 0, 2 * half_); }
   Eigen::Vector3f* light(std::size_t i) { return light_.data() + i * std::size_t(2 * half_ + 1); }
@@ -223,6 +246,7 @@ private:
   }
 
   double step_;
+  float shading_;
   double reach_;
   double reference_;
   int half_;
@@ -248,7 +272,7 @@ OutlineEdges findRoughly(const Profiles& profiles, double reachPx, std::vector<d
     }
     if (isFound)
     {
-      result.edges.push_back({ i, step.place, contrast });
+      result.edges.push_back({ i, step.place, contrast, 0 });
       blurs.push_back(step.blur);
     }
   }
@@ -264,21 +288,29 @@ std::vector<Sides> smooth(const std::vector<Sides>& own, const std::vector<char>
   {
     const Sides& centre = own[std::size_t(i)];
     const float alike = AlikeShare * centre.contrast();
-    Sides sum = { Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero() };
+    Sides sum;
     float inside = 0, outside = 0;
     for (int k = -NeighboursToEitherSide; k <= NeighboursToEitherSide && isGood[std::size_t(i)]; ++k)
     {
       const auto j = std::size_t((i + k + count) % count);
       const bool isInsideAlike = isGood[j] && (own[j].inside - centre.inside).norm() < alike;
       const bool isOutsideAlike = isGood[j] && (own[j].outside - centre.outside).norm() < alike;
-      sum.inside += isInsideAlike ? own[j].inside : Eigen::Vector3f::Zero();
-      sum.outside += isOutsideAlike ? own[j].outside : Eigen::Vector3f::Zero();
-      inside += isInsideAlike ? 1 : 0;
-      outside += isOutsideAlike ? 1 : 0;
+      if (isInsideAlike)
+      {
+        sum.inside += own[j].inside;
+        sum.insideChange += own[j].insideChange;
+        ++inside;
+      }
+      if (isOutsideAlike)
+      {
+        sum.outside += own[j].outside;
+        sum.outsideChange += own[j].outsideChange;
+        ++outside;
+      }
     }
     if (inside > 0 && outside > 0)
     {
-      smoothed[std::size_t(i)] = { sum.inside / inside, sum.outside / outside };
+      smoothed[std::size_t(i)] = { sum.inside / inside, sum.outside / outside, sum.insideChange / inside, sum.outsideChange / outside };
     }
   }
   return smoothed;
@@ -306,7 +338,7 @@ OutlineEdges findFinely(const Profiles& profiles, const OutlineSearch& search, s
     if (isGood[i] && profiles.byArea(i, sides[i], 0, step) && profiles.byMatching(i, sides[i], search.blurPx, step.place) &&
       std::abs(step.place) <= search.reachPx)
     {
-      result.edges.push_back({ i, step.place, double(sides[i].contrast()) });
+      result.edges.push_back({ i, step.place, double(sides[i].contrast()), profiles.shadingPx(sides[i], search.blurPx) });
       blurs.push_back(step.blur);
     }
   }
@@ -322,7 +354,7 @@ OutlineEdges findOutlineEdges(const LinearLightImage& image, const SphereCone::O
   const double reference =
     std::min(std::clamp(BlursToReference * blur, NearestReferencePx, FurthestReferencePx), 0.4 * search.radiusPx);
   const double reach = std::min(search.reachPx, 0.6 * search.radiusPx);
-  const Profiles profiles(image, expected, reach, reference, isRough ? CoarseStepPx : FineStepPx);
+  const Profiles profiles(image, expected, reach, reference, isRough ? CoarseStepPx : FineStepPx, isRough ? ShadingRough : ShadingInside);
   std::vector<double> blurs;
   OutlineEdges result = isRough ? findRoughly(profiles, reach, blurs) : findFinely(profiles, search, blurs);
   result.blurPx = blurs.empty() ? 0 : median(blurs);

@@ -17,6 +17,7 @@ struct OutlineEdge
   std::size_t index = 0;  ///< of the outline's point
   double offsetPx = 0;    ///< along the normal from there, outwards positive
   double contrast = 0;    ///< of the linear light across the edge
+  double shadingPx = 0;   ///< how far the light's change on either side may have moved it
 };
 
 struct OutlineEdges

@@ -41,9 +41,10 @@ constexpr int Rounds = 10;
 constexpr double TukeyConstant = 4.685;
 /// Edge points are never better than this (px): below it the weights would chase rounding.
 constexpr double SmallestSigmaPx = 0.01;
-/// Waves along the outline that tell how much neighbouring edge points err together. One wave is an error of the centre itself.
-constexpr int FirstWave = 2;
-constexpr int LastWave = 5;
+/// Shading moves the edges in waves along the outline: none (the whole outline), one (all of it to one side), two, three; each with this
+/// share of what the light's change on either side may move a single edge by. Measured on rendered captures.
+constexpr int LongestWaves = 3;
+constexpr double ShadingToWave = 0.65;
 
 double tukey(double residual, double sigma)
 {
@@ -84,11 +85,31 @@ public:
   double sigmaPx() const { return sigmaPx_; }
   double residual(std::size_t i) const { return residuals_[i]; }
 
-  /// Of the axis' two tilts.
+  /// Of the axis' two tilts: what the edges scatter, and what shading does to many of them together.
   Eigen::Matrix2d covariance() const
   {
-    const Eigen::Matrix3d ofStep = sigmaPx_ * sigmaPx_ * information_.inverse();
-    return std::max(1.0, togetherness()) * ofStep.topLeftCorner<2, 2>();
+    const Eigen::Matrix3d inverse = information_.inverse();
+    Eigen::Matrix3d ofStep = sigmaPx_ * sigmaPx_ * inverse;
+    std::vector<double> shading;
+    for (const OutlineEdge& edge : edges_)
+    {
+      shading.push_back(edge.shadingPx * edge.shadingPx);
+    }
+    const double waveVariance = ShadingToWave * ShadingToWave * median(shading);
+    for (int wave = 0; wave <= LongestWaves; ++wave)
+    {
+      for (const double phase : { 0.0, Pi / 2 })
+      {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (std::size_t i = 0; i < edges_.size(); ++i)
+        {
+          sum += weights_[i] * std::cos(wave * outline_.turns[edges_[i].index] - phase) * rate(i);
+        }
+        const Eigen::Vector3d moved = inverse * sum;
+        ofStep += waveVariance * moved * moved.transpose();
+      }
+    }
+    return ofStep.topLeftCorner<2, 2>();
   }
 
 private:
@@ -131,29 +152,6 @@ private:
       weights_[i] = tukey(residuals_[i], sigmaPx_);
     }
     return true;
-  }
-
-  /// The power of the residuals' longest waves over what independent errors would have.
-  double togetherness() const
-  {
-    double power = 0, sum = 0, squares = 0;
-    for (std::size_t i = 0; i < edges_.size(); ++i)
-    {
-      sum += weights_[i];
-      squares += weights_[i] * residuals_[i] * residuals_[i];
-    }
-    for (int wave = FirstWave; wave <= LastWave; ++wave)
-    {
-      Eigen::Vector2d projected = Eigen::Vector2d::Zero();
-      for (std::size_t i = 0; i < edges_.size(); ++i)
-      {
-        const double phase = wave * outline_.turns[edges_[i].index];
-        projected += weights_[i] * residuals_[i] * Eigen::Vector2d(std::cos(phase), std::sin(phase));
-      }
-      power += projected.squaredNorm();
-    }
-    // Independent errors of variance s^2: each wave's projection has a squared norm of sum(w^2) s^2 or less.
-    return power / (LastWave - FirstWave + 1) / std::max(squares, 1e-12 * sum);
   }
 
   const SphereCone::Outline& outline_;

@@ -23,8 +23,8 @@ struct OutlineFit
   double visibleShare = 0;                     ///< of the outline: where such a point was found
   double blurPx = 0;                           ///< of the edges, standard deviation
   double sigmaPx = 0;                          ///< robust standard deviation of the edge points about the outline
-  /// Of the cone's axis (unit ray), rank 2. Shading and reflections move neighbouring edge points together, so that n of them do not
-  /// average as n independent ones do; how much so is read off the waves that the residuals make along the outline.
+  /// Of the cone's axis (unit ray), rank 2. Shading moves neighbouring edge points together, so that n of them do not average as n
+  /// independent ones do; how far is judged by how the light changes on either side of the edges.
   Eigen::Matrix3d axisCovariance = Eigen::Matrix3d::Zero();
 };
 
