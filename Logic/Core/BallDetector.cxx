@@ -285,12 +285,12 @@ BallDetection BallDetector::detect(const cv::Mat& image, const std::optional<Bal
 BallDetection BallDetector::detectIn(
   const cv::Mat& image, const cv::Rect& window, const std::optional<BallPrediction>& prediction) const
 {
-  requireColorImage(image);
   if (camera_.hasImageSize() && (image.cols != camera_.width() || image.rows != camera_.height()))
   {
     throw std::invalid_argument("the image is " + std::to_string(image.cols) + " x " + std::to_string(image.rows) +
       " px, the camera was calibrated for " + std::to_string(camera_.width()) + " x " + std::to_string(camera_.height()) + " px");
   }
+  requireColorImage(image);
   if (prediction)
   {
     prediction->check();

@@ -36,6 +36,10 @@ struct HoughCircle
   double radiusPx = 0;
 };
 
+/// The first two stages: 255 where a pixel is red enough, and that smoothed.
+cv::Mat houghMask(const cv::Mat& image, const HoughBallOptions& options = {});
+cv::Mat houghSmoothed(const cv::Mat& mask, const HoughBallOptions& options = {});
+
 /// The strongest circle in the thresholded image; nothing if there is none.
 /// @param image BGR or BGRA, 8 or 16 bit
 /// @throws std::invalid_argument as toHsv() does
