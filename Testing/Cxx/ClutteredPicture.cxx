@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ClutteredPicture.h"
 
+#include "CameraFile.h"
 #include "CaptureTruth.h"
 #include "SphereCone.h"
 
@@ -29,9 +30,14 @@ struct RenderedFrame
   std::optional<handeye::testing::CaptureTruth::Ball> ball;
 };
 
+std::filesystem::path folderOf(const std::string& capture)
+{
+  return std::filesystem::path(HANDEYE_TEST_DATA_DIR) / "rendered" / capture;
+}
+
 std::vector<RenderedFrame> renderedFrames(const std::string& capture)
 {
-  const std::filesystem::path folder = std::filesystem::path(HANDEYE_TEST_DATA_DIR) / "rendered" / capture;
+  const std::filesystem::path folder = folderOf(capture);
   const handeye::testing::CaptureTruth truth = handeye::testing::readTruth(folder);
   std::vector<RenderedFrame> frames;
   for (const char* part : { "calibration", "validation" })
@@ -84,16 +90,17 @@ std::vector<cv::Mat> partsWithoutBall()
 
 }  // namespace
 
-std::vector<cv::Mat> picturesWithoutBall()
+std::vector<PictureWithoutBall> picturesWithoutBall()
 {
-  std::vector<cv::Mat> pictures;
+  std::vector<PictureWithoutBall> pictures;
   for (const char* capture : { "table_webcam", "tissue_laparoscope" })
   {
+    const CameraModel camera = io::readCameraFile(folderOf(capture) / "camera.yml").camera;
     for (const RenderedFrame& frame : renderedFrames(capture))
     {
       if (!frame.ball)
       {
-        pictures.push_back(frame.image);
+        pictures.push_back({ frame.image, camera });
       }
     }
   }
@@ -161,6 +168,19 @@ void drawBall(cv::Mat& light, const cv::Rect& area, const CameraModel& camera, c
     cv::GaussianBlur(both, both, {}, blurPx, blurPx, cv::BORDER_REPLICATE);
   }
   light = own + light.mul(both - own);
+}
+
+void paint(cv::Mat& light, const cv::Mat& mask, const Light& color, double blurPx)
+{
+  cv::Mat cover, covers;
+  mask.convertTo(cover, CV_32F, 1.0 / 255);
+  if (blurPx > 0)
+  {
+    cv::GaussianBlur(cover, cover, {}, blurPx, blurPx, cv::BORDER_REPLICATE);
+  }
+  cv::cvtColor(cover, covers, cv::COLOR_GRAY2BGR);
+  const cv::Mat paper(light.size(), CV_32FC3, cv::Scalar(color[0], color[1], color[2]));
+  light = light + covers.mul(paper - light);
 }
 
 cv::Mat smear(const cv::Mat& light, const Eigen::Vector2d& motionPx)
