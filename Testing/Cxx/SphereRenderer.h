@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 namespace handeye::test
@@ -38,6 +39,52 @@ struct Photograph
   unsigned seed = 1;
 };
 
+/// Linear light to the encoded value (sRGB), 0 to 1.
+inline float encode(float linear)
+{
+  return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1 / 2.4F) - 0.055F;
+}
+
+/// The same to a 65536th, quickly, and cut off at 0 and 1 as a sensor does.
+inline float encodeByTable(float linear)
+{
+  static const std::vector<float> table = []
+  {
+    std::vector<float> values;
+    for (int i = 0; i <= 65535; ++i)
+    {
+      values.push_back(encode(float(i) / 65535));
+    }
+    return values;
+  }();
+  return table[std::size_t(std::clamp(std::lround(linear * 65535), 0L, 65535L))];
+}
+
+/// Linear light (after the optics) to the camera's picture: encoded, with noise, rounded and cut off at white.
+inline cv::Mat develop(const cv::Mat& light, const Photograph& how)
+{
+  cv::Mat noise(light.size(), CV_32FC3, cv::Scalar::all(0));
+  cv::RNG random(how.seed);
+  if (how.noise > 0)
+  {
+    random.fill(noise, cv::RNG::NORMAL, cv::Scalar::all(0), cv::Scalar::all(how.noise / 255));
+  }
+  const bool isWide = CV_MAT_DEPTH(how.type) == CV_16U;
+  cv::Mat encoded(light.size(), CV_32FC3);
+  for (int row = 0; row < light.rows; ++row)
+  {
+    const float* from = light.ptr<float>(row);
+    float* to = encoded.ptr<float>(row);
+    for (int i = 0; i < 3 * light.cols; ++i)
+    {
+      to[i] = isWide ? encode(from[i]) : encodeByTable(from[i]);
+    }
+  }
+  cv::Mat image;
+  cv::Mat(encoded + noise).convertTo(image, how.type, isWide ? 65535 : 255);  // rounds and saturates
+  return image;
+}
+
 /// A picture of balls, worked out analytically: whether a ray meets the sphere, each ray through the exact lens, 8 x 8 rays a pixel
 /// along the outline, in linear light; then blur, sRGB, noise and rounding.
 class SphereScene
@@ -55,27 +102,11 @@ public:
   SphereScene& add(const RenderedBall& ball)
   {
     const cv::Rect area = boundsOf(ball);
-    // Pixels whose corners are well on one side of the outline have one ray; the others a grid of them.
-    cv::Mat1d corners(area.height + 1, area.width + 1);
-    for (int i = 0; i < int(corners.total()); ++i)
+    for (int y = area.y; y < area.br().y; y += Block)
     {
-      const int row = i / corners.cols, column = i % corners.cols;
-      corners(row, column) = beyondOutline(ball, area.x + column - 0.5, area.y + row - 0.5);
-    }
-    for (int row = 0; row < area.height; ++row)
-    {
-      for (int column = 0; column < area.width; ++column)
+      for (int x = area.x; x < area.br().x; x += Block)
       {
-        double nearest = 0, furthest = 0;
-        cv::minMaxLoc(corners(cv::Rect(column, row, 2, 2)), &nearest, &furthest);
-        const double margin = 0.3 * (furthest - nearest);
-        Light& pixel = light_.at<Light>(area.y + row, area.x + column);
-        if (nearest > margin)
-        {
-          continue;
-        }
-        pixel = furthest < -margin ? sample(ball, area.x + column, area.y + row, pixel)
-                                   : supersample(ball, area.x + column, area.y + row, pixel);
+        addBlock(ball, cv::Rect(x, y, Block, Block) & area);
       }
     }
     return *this;
@@ -95,48 +126,64 @@ public:
     {
       cv::GaussianBlur(light_, blurred, {}, how.blurPx, how.blurPx, cv::BORDER_REPLICATE);
     }
-    cv::Mat noise(light_.size(), CV_32FC3, cv::Scalar::all(0));
-    cv::RNG random(how.seed);
-    if (how.noise > 0)
-    {
-      random.fill(noise, cv::RNG::NORMAL, cv::Scalar::all(0), cv::Scalar::all(how.noise / 255));
-    }
-    const bool isWide = CV_MAT_DEPTH(how.type) == CV_16U;
-    cv::Mat encoded(light_.size(), CV_32FC3);
-    for (int row = 0; row < light_.rows; ++row)
-    {
-      const float* from = blurred.ptr<float>(row);
-      float* to = encoded.ptr<float>(row);
-      for (int i = 0; i < 3 * light_.cols; ++i)
-      {
-        to[i] = isWide ? encode(from[i]) : encodeByTable(from[i]);
-      }
-    }
-    cv::Mat image;
-    cv::Mat(encoded + noise).convertTo(image, how.type, isWide ? 65535 : 255);  // rounds and saturates
-    return image;
+    return develop(blurred, how);
   }
 
 private:
   static constexpr int Grid = 8;
+  static constexpr int Block = 8;
 
-  static float encode(float linear)
+  /// A block of pixels far from the outline needs at most a ray a pixel.
+  void addBlock(const RenderedBall& ball, const cv::Rect& block)
   {
-    return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1 / 2.4F) - 0.055F;
+    const cv::Point end = block.br();
+    const double corners[] = { beyondOutline(ball, block.x - 0.5, block.y - 0.5), beyondOutline(ball, end.x - 0.5, block.y - 0.5),
+      beyondOutline(ball, block.x - 0.5, end.y - 0.5), beyondOutline(ball, end.x - 0.5, end.y - 0.5) };
+    const auto [nearest, furthest] = std::minmax_element(std::begin(corners), std::end(corners));
+    const double farAway = 3 * Block / std::min(camera_.fx(), camera_.fy());
+    if (*nearest > farAway)
+    {
+      return;
+    }
+    const bool isInside = *furthest < -farAway;
+    if (isInside && !ball.isShaded)
+    {
+      light_(block).setTo(cv::Scalar(ball.color[0], ball.color[1], ball.color[2]));
+      return;
+    }
+    if (isInside)
+    {
+      for (int i = 0; i < block.area(); ++i)
+      {
+        const int x = block.x + i % block.width, y = block.y + i / block.width;
+        light_.at<Light>(y, x) = colorAt(ball, rayAt(x, y));
+      }
+      return;
+    }
+    addRim(ball, block);
   }
 
-  static float encodeByTable(float linear)
+  /// Pixels whose corners are well on one side of the outline have one ray; the others a grid of them.
+  void addRim(const RenderedBall& ball, const cv::Rect& block)
   {
-    static const std::vector<float> table = []
+    cv::Mat1d beyond(block.height + 1, block.width + 1);
+    for (int i = 0; i < int(beyond.total()); ++i)
     {
-      std::vector<float> values;
-      for (int i = 0; i <= 65535; ++i)
+      const int row = i / beyond.cols, column = i % beyond.cols;
+      beyond(row, column) = beyondOutline(ball, block.x + column - 0.5, block.y + row - 0.5);
+    }
+    for (int i = 0; i < block.area(); ++i)
+    {
+      const int column = i % block.width, row = i / block.width, x = block.x + column, y = block.y + row;
+      const auto [nearest, furthest] =
+        std::minmax({ beyond(row, column), beyond(row, column + 1), beyond(row + 1, column), beyond(row + 1, column + 1) });
+      const double margin = 0.3 * (furthest - nearest);
+      if (nearest <= margin)
       {
-        values.push_back(encode(float(i) / 65535));
+        Light& pixel = light_.at<Light>(y, x);
+        pixel = furthest < -margin ? sample(ball, rayAt(x, y), pixel) : supersample(ball, x, y, pixel);
       }
-      return values;
-    }();
-    return table[std::size_t(std::clamp(std::lround(linear * 65535), 0L, 65535L))];
+    }
   }
 
   static bool meets(const RenderedBall& ball, const Eigen::Vector3d& ray)
@@ -160,18 +207,27 @@ private:
 
   Eigen::Vector3d rayAt(double x, double y) const { return camera_.unproject({ x, y }).ray_Camera; }
 
-  Light sample(const RenderedBall& ball, double x, double y, const Light& behind) const
+  static Light sample(const RenderedBall& ball, const Eigen::Vector3d& ray, const Light& behind)
   {
-    const Eigen::Vector3d ray = rayAt(x, y);
     return meets(ball, ray) ? colorAt(ball, ray) : behind;
   }
 
+  /// The rays of a pixel lie so close together that those between the exact ones of its quarters' corners are linear to 1e-4 px.
   Light supersample(const RenderedBall& ball, int column, int row, const Light& behind) const
   {
+    Eigen::Vector3d exact[3][3];
+    for (int i = 0; i < 9; ++i)
+    {
+      exact[i / 3][i % 3] = rayAt(column + 0.5 * (i % 3) - 0.5, row + 0.5 * (i / 3) - 0.5);
+    }
     Light sum(0, 0, 0);
     for (int i = 0; i < Grid * Grid; ++i)
     {
-      sum += sample(ball, column + (i % Grid + 0.5) / Grid - 0.5, row + (i / Grid + 0.5) / Grid - 0.5, behind);
+      const double x = 2 * (i % Grid + 0.5) / Grid, y = 2 * (i / Grid + 0.5) / Grid;
+      const int right = int(x), below = int(y);
+      const Eigen::Vector3d upper = exact[below][right] + (x - right) * (exact[below][right + 1] - exact[below][right]);
+      const Eigen::Vector3d lower = exact[below + 1][right] + (x - right) * (exact[below + 1][right + 1] - exact[below + 1][right]);
+      sum += sample(ball, (upper + (y - below) * (lower - upper)).normalized(), behind);
     }
     return sum / float(Grid * Grid);
   }
