@@ -8,12 +8,19 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace handeye
 {
 
 namespace
 {
+
+/// An image is dim when its brightest twentieth stays below this value.
+constexpr double WellLit = 0.6;
+/// However dim it is, no more than this share of the smallest value is let go.
+constexpr double DarkestShare = 0.35;
+constexpr double LightSamples = 4000;
 
 int toByte(double share)
 {
@@ -67,6 +74,29 @@ cv::Mat toHsv(const cv::Mat& image, BallColor::ChannelOrder order)
   const bool isBgr = order == BallColor::ChannelOrder::Bgr;
   cv::cvtColor(toEightBits(image, buffer), hsv, isBgr ? cv::COLOR_BGR2HSV_FULL : cv::COLOR_RGB2HSV_FULL);
   return hsv;
+}
+
+BallColor adaptToLight(const BallColor& color, const cv::Mat& image)
+{
+  requireColorImage(image);
+  // A few thousand pixels say how bright the image is.
+  const int step = std::max(1, int(std::sqrt(double(image.total()) / LightSamples)));
+  const bool isWide = image.depth() == CV_16U;
+  std::vector<int> values;
+  for (int row = step / 2; row < image.rows; row += step)
+  {
+    for (int column = step / 2; column < image.cols; column += step)
+    {
+      const int offset = column * image.channels();
+      const auto largest = [](const auto* pixel) { return int(std::max({ pixel[0], pixel[1], pixel[2] })); };
+      values.push_back(isWide ? largest(image.ptr<ushort>(row) + offset) / 257 : largest(image.ptr<uchar>(row) + offset));
+    }
+  }
+  const auto bright = values.begin() + std::ptrdiff_t(0.95 * double(values.size() - 1));
+  std::nth_element(values.begin(), bright, values.end());
+  BallColor adapted = color;
+  adapted.minimumValue *= std::clamp(*bright / 255.0 / WellLit, DarkestShare, 1.0);
+  return adapted;
 }
 
 cv::Mat ballColorMask(const cv::Mat& hsv, const BallColor& color)

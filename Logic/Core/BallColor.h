@@ -20,7 +20,7 @@ struct BallColor
   double hueDeg = 0;                ///< 0 red, 120 green, 240 blue; wraps around
   double hueToleranceDeg = 16;      ///< to either side, below 60
   double minimumSaturation = 0.35;  ///< 0 to 1, of a single pixel: what shadow and reflected light leave
-  double minimumValue = 0.16;       ///< 0 to 1, of a single pixel: darker ones have no trustworthy hue
+  double minimumValue = 0.16;       ///< 0 to 1, of a single pixel: darker ones have no trustworthy hue; less in a dim image
   double minimumChroma = 0;  ///< 0 to 1, saturation times value of a single pixel: what tells a lit ball from dark red things
   double minimumMedianSaturation = 0.53;  ///< 0 to 1, of the ball as a whole: pink and brown things are not the ball
 
@@ -38,6 +38,10 @@ const cv::Mat& toEightBits(const cv::Mat& image, cv::Mat& buffer);
 /// @param image BGR or BGRA, RGB or RGBA, 8 or 16 bit
 /// @throws std::invalid_argument as requireColorImage()
 cv::Mat toHsv(const cv::Mat& image, BallColor::ChannelOrder order = BallColor::ChannelOrder::Bgr);
+
+/// The colour as it looks in this image: in a dim one darker pixels count as well.
+/// @throws std::invalid_argument as requireColorImage()
+BallColor adaptToLight(const BallColor& color, const cv::Mat& image);
 
 /// 255 where a pixel has the ball's colour, 0 elsewhere.
 cv::Mat ballColorMask(const cv::Mat& hsv, const BallColor& color);

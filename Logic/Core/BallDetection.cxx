@@ -43,6 +43,8 @@ std::string toString(BallDetection::Status status)
       return "too_little_visible";
     case Status::OutOfRange:
       return "out_of_range";
+    case Status::Blurred:
+      return "blurred";
     case Status::Elsewhere:
       return "elsewhere";
   }

@@ -29,7 +29,8 @@ struct BallDetectionOptions
   double minimumRadiusPx = 5;
   /// Least share of the outline that must be seen as a sharp edge of the ball.
   double minimumVisibleShare = 0.35;
-  /// Least share of what the seen part of the outline encloses that must have the ball's colour or be a highlight.
+  /// Least share of what the seen part of the outline encloses that must have the ball's colour or be a highlight; where a finger is in
+  /// front of the ball, of its rim.
   double minimumFill = 0.75;
   /// Two balls are told apart when one is better than the other by this factor; otherwise neither is taken.
   double distinctionFactor = 1.25;
@@ -52,6 +53,7 @@ struct BallDetection
     SeveralBalls,      ///< two or more places look equally like it
     TooLittleVisible,  ///< a ball is there, but too little of its outline is seen
     OutOfRange,        ///< what looks like the ball is outside of the working range
+    Blurred,           ///< a ball is there, but its outline is smeared by motion
     Elsewhere          ///< what looks like the ball is not where the tracker puts it
   };
 
@@ -63,6 +65,7 @@ struct BallDetection
   double radiusPx = 0;                                         ///< apparent radius: the root of the outline's area over pi
   double distanceMm = 0;                                       ///< of the ball's centre from the camera, from its apparent size
   double visibleShare = 0;                                     ///< share of the outline that was seen
+  double blurVariationPx=0;
   double confidence = 0;  ///< 0 to 1: visible share, times share of the inside that has the ball's colour, less for scattered edges
   std::vector<Eigen::Vector2d> outline_Image;  ///< the edge points (px) that the fit rests on
 

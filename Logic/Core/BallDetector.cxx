@@ -39,6 +39,12 @@ constexpr double DistanceTolerance = 0.15;
 constexpr double LargestSigmaPx = 0.4;
 constexpr double LargestRoughSigmaPx = 0.7;
 
+/// A ball that is smaller than the largest one by this factor is far away: not the one that is held.
+constexpr double MuchSmaller = 3;
+/// An outline whose edges are so much wider (px) on two opposite sides moved while the picture was taken, by 8 px or more. Shading and
+/// reflections alone make up to 0.95.
+constexpr double LargestTwoSidedWidthPx = 1.75;
+
 /// A ball that was found.
 struct Found
 {
@@ -129,7 +135,7 @@ public:
     , camera_(camera)
     , grid_(grid)
     , options_(options)
-    , levels_(image, options.color, window)
+    , levels_(image, adaptToLight(options.color, image), window)
     , light_(image)
   {
   }
@@ -201,6 +207,7 @@ BallDetection describe(const Found& found, const CameraModel& camera, double bal
   result.radiusPx = found.evidence.radiusPx;
   result.distanceMm = found.fit.cone.distance(ballRadiusMm);
   result.visibleShare = found.fit.visibleShare;
+  result.blurVariationPx=found.fit.twoSidedWidthPx;
   result.confidence = found.score();
   result.outline_Image = found.fit.support_Image;
   return result;
@@ -335,9 +342,17 @@ BallDetection BallDetector::detectExact(
                        : std::string("by the tracker the ball is out of view")));
     }
   }
+  const auto larger = [](const Found& a, const Found& b) { return a.evidence.radiusPx < b.evidence.radiusPx; };
+  const double largestPx = std::max_element(balls.begin(), balls.end(), larger)->evidence.radiusPx;
+  const auto isFarAway = [&](const Found& found) { return MuchSmaller * found.evidence.radiusPx < largestPx; };
+  balls.erase(std::remove_if(balls.begin(), balls.end(), isFarAway), balls.end());
   if (balls.size() > 1 && balls[0].score() < options_.distinctionFactor * balls[1].score())
   {
     return refuse(Status::SeveralBalls, std::to_string(balls.size()) + " things look like the ball: take the others out of the view");
+  }
+  if (balls.front().fit.twoSidedWidthPx > LargestTwoSidedWidthPx)
+  {
+    return refuse(Status::Blurred, "the ball is seen, but its outline is smeared: hold the ball and the camera still");
   }
   return describe(balls.front(), camera_, ballRadiusMm_);
 }

@@ -22,13 +22,19 @@ constexpr double HalfTrustSigmaPx = 0.4;
 constexpr int OutlineCorners = 90;
 /// Largest share of the outline, of what is seen of it, across which the ball's colour goes on without an edge: a piece of
 /// something longer is not a ball.
-constexpr double LargestContinuedShare = 0.35;
+constexpr double LargestContinuedShare = 0.3;
 /// The colour is looked at this far inside and outside of the outline: a share of the radius, within limits in px.
 constexpr double AcrossShare = 0.25;
 constexpr double NearestAcrossPx = 2;
 constexpr double FurthestAcrossPx = 4;
 /// Least share of what the seen outline encloses that has the colour itself, highlights not counted.
-constexpr double LeastColor = 0.4;
+constexpr double LeastColor = 0.35;
+/// Something in front of the ball, a finger, may cover this much of what the seen outline encloses where the rim is well filled.
+constexpr double LeastBehindFinger = 0.45;
+constexpr double RimBesideFinger = 0.5;
+constexpr double SigmaBesideFingerPx = 0.25;
+/// Along a line from the centre to a seen point of the outline the colour is looked at in these places, as shares of the way.
+constexpr double AlongRadius[] = { 0.5, 0.6, 0.7, 0.8, 0.9 };
 /// Of larger balls not every pixel is looked at, but about this many.
 constexpr double PixelsLookedAt = 3000;
 
@@ -99,6 +105,24 @@ Inside lookInside(const cv::Mat& image, const BallColorLevels& levels, int level
   return inside;
 }
 
+/// The share of the seen outline behind which the ball's rim has its colour, or a highlight, half the way to the centre. What something
+/// in front of the ball hides does not count.
+double rimFill(const OutlineFit& fit, const BallColorLevels& levels, int level, const Eigen::Vector2d& center_Image)
+{
+  int filled = 0;
+  for (const Eigen::Vector2d& edge : fit.support_Image)
+  {
+    int colored = 0;
+    for (const double share : AlongRadius)
+    {
+      const cv::Point pixel = nearestPixel(center_Image + share * (edge - center_Image));
+      colored += levels.meets(level, pixel) || levels.isHighlight(pixel) ? 1 : 0;
+    }
+    filled += colored + 1 >= int(std::size(AlongRadius)) ? 1 : 0;
+  }
+  return double(filled) / double(fit.support_Image.size());
+}
+
 /// The share of the outline across which the colour goes on and no edge was found.
 double continuedShare(const BallColorLevels& levels, int level, const SphereCone::Outline& outline, const OutlineFit& fit, double radiusPx)
 {
@@ -146,7 +170,10 @@ BallEvidence judgeOutline(const OutlineFit& fit, const cv::Mat& image, const Bal
   }
   evidence.radiusPx = std::sqrt(cv::contourArea(whole) / Pi);
   const Inside inside = lookInside(image, levels, level, seen);
-  evidence.fill = std::min(1.0, inside.colored + inside.highlights);
+  const double filled = std::min(1.0, inside.colored + inside.highlights);
+  const double rim = rimFill(fit, levels, level, camera.project(fit.cone.axis_Camera).point_Image);
+  const bool isBesideFinger = rim >= RimBesideFinger && filled >= LeastBehindFinger && fit.sigmaPx <= SigmaBesideFingerPx;
+  evidence.fill = isBesideFinger ? std::max(filled, options.minimumFill) : filled;
   evidence.continuedShare = continuedShare(levels, level, outline, fit, evidence.radiusPx);
   const bool isWhole = evidence.continuedShare <= LargestContinuedShare * (fit.visibleShare + evidence.continuedShare);
   evidence.isPartOfBall = isWhole && fit.sigmaPx <= largestSigmaPx && evidence.radiusPx >= options.minimumRadiusPx &&

@@ -101,7 +101,7 @@ BallStages drawBallStages(const cv::Mat& image, const BallDetection& detection, 
   }
   else
   {
-    const BallColorLevels levels(image, options.color, { 0, 0, image.cols, image.rows });
+    const BallColorLevels levels(image, adaptToLight(options.color, image), { 0, 0, image.cols, image.rows });
     stages.mask = levels.likelihood() * (255 / BallColorLevels::Count);
     cv::medianBlur(stages.mask, stages.smoothed, SpecklePx);
   }

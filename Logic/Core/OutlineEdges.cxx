@@ -4,6 +4,7 @@
 
 #include "Statistics.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace
 constexpr double Pi = double(EIGEN_PI);
 constexpr double CoarseStepPx = 0.5;
 constexpr double FineStepPx = 0.25;
-constexpr double MinimumContrast = 0.08;
+constexpr double MinimumContrast = 0.03;
 /// How much the light varies: by noise (of full light), and along its own colour by shading (of itself). As long as the outline is not
 /// known the light that shading takes away towards the limb must not be taken for it: there it is the colour that counts.
 constexpr float LightNoise = 0.02F;
@@ -32,13 +33,22 @@ constexpr double ReferencePx = 1.5;
 constexpr double BlursToReference = 1.25;
 constexpr double NearestReferencePx = 1.5;
 constexpr double FurthestReferencePx = 5;
+/// An edge this far (px) from the expected outline counts half.
+constexpr double NearEnoughPx = 3;
 constexpr double UnknownBlurPx = 1.0;
+/// How far from the outline the light is that an edge's width is measured between.
+constexpr double WidthReferencePx = 7;
+/// Waves of the width are told apart where this share of the outline is seen.
+constexpr double FewestWidths = 0.7;
 /// Neighbours along the outline whose references are averaged, to either side, where they differ by less than this share of the
 /// contrast.
 constexpr int NeighboursToEitherSide = 3;
 constexpr float AlikeShare = 0.25F;
 /// The blurred step that is fitted is never sharper than this (px): bilinear sampling alone blurs that much.
 constexpr double SharpestPx = 0.35;
+/// Light above this is clipped, and nobody knows by how much: so much of the step may be missing.
+constexpr float ClippedLight = 0.97F;
+constexpr double ClippedLevel = 0.2;
 constexpr int MatchingRounds = 3;
 
 /// A normal distribution: its integral and its density, tabulated.
@@ -139,7 +149,8 @@ public:
   std::size_t count() const { return isUsable_.size(); }
   bool isUsable(std::size_t i) const { return isUsable_[i]; }
 
-  /// Where the light changes most, changes along the ball's own colour counting less.
+  /// Where the light changes most; changes along the ball's own colour count less, and so do changes further away: a highlight has a rim,
+  /// too.
   double steepest(std::size_t i) const
   {
     const int gap = std::max(1, int(1.0 / step_)), limit = int(reach_ / step_);
@@ -151,7 +162,8 @@ public:
       const float size = inside.norm(), along = size > 0 ? change.dot(inside) / size : 0;
       const float across = std::max(0.0F, change.squaredNorm() - along * along);
       const float shading = shading_ * size;
-      const float distinct = across / (LightNoise * LightNoise) + along * along / (LightNoise * LightNoise + shading * shading);
+      const float apart = float(k * step_ / NearEnoughPx);
+      const float distinct = (across / (LightNoise * LightNoise) + along * along / (LightNoise * LightNoise + shading * shading)) / (1 + apart * apart);
       if (distinct > most)
       {
         most = distinct;
@@ -220,12 +232,45 @@ public:
     return true;
   }
 
+  /// How far apart (px) the places nearest to the outline are where the light has fallen to three quarters and to a quarter; false where
+  /// there are none.
+  bool width(std::size_t i, double& widthPx) const
+  {
+    const Sides both = sides(i, 0);
+    if (double(both.contrast()) < MinimumContrast)
+    {
+      return false;
+    }
+    const Eigen::Vector3f direction = both.discriminant(shading_);
+    const float offset = both.outside.dot(direction);
+    const auto level = [&](int k) { return light(i)[k + half_].dot(direction) - offset; };
+    const int limit = int(reference_ / step_);
+    int quarter = 0, threeQuarters = 0;
+    while (quarter < limit && level(quarter) > 0.25F)
+    {
+      ++quarter;
+    }
+    while (quarter > -limit && level(quarter - 1) < 0.25F)
+    {
+      --quarter;
+    }
+    threeQuarters = quarter;
+    while (threeQuarters > -limit && level(threeQuarters) < 0.75F)
+    {
+      --threeQuarters;
+    }
+    widthPx = (quarter - threeQuarters) * step_;
+    return true;
+  }
+
   /// The place that is found moves by this much per level that a side is wrong by; and a side is wrong by what it changes on the way to
-  /// the edge.
+  /// the edge, and by what was clipped.
   double shadingPx(const Sides& sides, double blurPx) const
   {
     const Eigen::Vector3f direction = sides.discriminant(shading_);
-    const double wrong = std::hypot(double(sides.insideChange.dot(direction)), double(sides.outsideChange.dot(direction)));
+    const bool isClipped = std::max(sides.inside.maxCoeff(), sides.outside.maxCoeff()) > ClippedLight;
+    const double wrong = std::hypot(double(sides.insideChange.dot(direction)), double(sides.outsideChange.dot(direction))) +
+      (isClipped ? ClippedLevel : 0);
     return std::sqrt(Pi) * std::max(blurPx, SharpestPx) * wrong;
   }
 
@@ -359,6 +404,35 @@ OutlineEdges findOutlineEdges(const LinearLightImage& image, const SphereCone::O
   OutlineEdges result = isRough ? findRoughly(profiles, reach, blurs) : findFinely(profiles, search, blurs);
   result.blurPx = blurs.empty() ? 0 : median(blurs);
   return result;
+}
+
+double twoSidedWidth(const LinearLightImage& image, const SphereCone::Outline& outline, double radiusPx)
+{
+  const double reference = std::min(WidthReferencePx, 0.4 * radiusPx);
+  const Profiles profiles(image, outline, 0, reference, CoarseStepPx, ShadingRough);
+  using Waves = Eigen::Matrix<double, 5, 1>;
+  Eigen::Matrix<double, 5, 5> matrix = Eigen::Matrix<double, 5, 5>::Zero();
+  Waves right = Waves::Zero();
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < profiles.count(); ++i)
+  {
+    double width = 0;
+    if (profiles.isUsable(i) && profiles.width(i, width))
+    {
+      const double turn = outline.turns[i];
+      Waves waves;
+      waves << 1, std::cos(turn), std::sin(turn), std::cos(2 * turn), std::sin(2 * turn);
+      matrix += waves * waves.transpose();
+      right += width * waves;
+      ++found;
+    }
+  }
+  if (double(found) < FewestWidths * double(profiles.count()))
+  {
+    return 0;
+  }
+  const Waves sizes = matrix.ldlt().solve(right);
+  return sizes.tail<2>().norm() > sizes.segment<2>(1).norm() ? sizes.tail<2>().norm() : 0;
 }
 
 }  // namespace handeye

@@ -40,4 +40,10 @@ struct OutlineSearch
 /// blurred step that fits the profile best, which is as precise as the noise of the pixels allows.
 OutlineEdges findOutlineEdges(const LinearLightImage& image, const SphereCone::Outline& expected, const OutlineSearch& search);
 
+/// How much wider edges are on two opposite sides of an outline than on average (px, from a quarter to three quarters of the step): a
+/// ball that moved while the picture was taken is blurred so. 0 where too little is seen, or where one side alone is wider, which
+/// shading does.
+/// @param outline that of a ball that was found
+double twoSidedWidth(const LinearLightImage& image, const SphereCone::Outline& outline, double radiusPx);
+
 }  // namespace handeye

@@ -188,6 +188,7 @@ public:
         return std::nullopt;
       }
     }
+    fit_.twoSidedWidthPx = twoSidedWidth(light_, fit_.cone.outline(camera_, FewestNormals), radiusPx());
     return fit_;
   }
 

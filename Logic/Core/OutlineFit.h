@@ -22,6 +22,7 @@ struct OutlineFit
   std::vector<double> supportTurns;            ///< rad about the axis, of each of them
   double visibleShare = 0;                     ///< of the outline: where such a point was found
   double blurPx = 0;                           ///< of the edges, standard deviation
+  double twoSidedWidthPx = 0;                  ///< how much wider edges are on two opposite sides, which motion does
   double sigmaPx = 0;                          ///< robust standard deviation of the edge points about the outline
   /// Of the cone's axis (unit ray), rank 2. Shading moves neighbouring edge points together, so that n of them do not average as n
   /// independent ones do; how far is judged by how the light changes on either side of the edges.
