@@ -2,23 +2,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "CameraModel.h"
+#include "RayGrid.h"
 #include "SphereCone.h"
 
 #include <opencv2/core.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace handeye
 {
 
+struct BallCandidates
+{
+  std::vector<SphereCone> cones;  ///< at most a dozen, the best supported first; the same ball may be there more than once
+  cv::Rect around;                ///< px of the image: outside of it there is no region that is large enough
+};
+
 /// Places in a colour mask where a ball may be: for each connected region the cones that best follow its border, whatever is
 /// attached to it. Coarse (about a pixel); internal to the detection.
 ///
-/// @param mask 255 where the colour is the ball's, 0 elsewhere
+/// @param mask not 0 where the colour is the ball's; of a window of the image, whose upper left pixel is `origin`
+/// @param grid the rays of the whole image, whose border is nobody's outline
+/// @param focalPx px per radian near the axis
 /// @param minimumRadiusPx smaller regions are passed over
-/// @return at most a dozen cones, the best supported first; the same ball may be there more than once
+/// @param isKnown told a region's bounding box (px of the image); regions for which it says true are passed over
 /// Thread-safe and deterministic.
-std::vector<SphereCone> findBallCandidates(const cv::Mat& mask, const CameraModel& camera, double minimumRadiusPx);
+BallCandidates findBallCandidates(const cv::Mat& mask, const cv::Point& origin, const RayGrid& grid, double focalPx,
+  double minimumRadiusPx, const std::function<bool(const cv::Rect&)>& isKnown);
 
 }  // namespace handeye

@@ -15,8 +15,6 @@ namespace handeye
 namespace
 {
 
-constexpr double HighlightValue = 0.75;
-
 int toByte(double share)
 {
   return int(std::lround(255 * share));
@@ -27,14 +25,14 @@ int toByte(double share)
 void BallColor::check() const
 {
   const auto isShare = [](double value) { return value >= 0 && value <= 1; };
-  if (!std::isfinite(hueDeg) || !(hueToleranceDeg > 0 && hueToleranceDeg < 180) || !isShare(minimumSaturation) ||
+  if (!std::isfinite(hueDeg) || !(hueToleranceDeg > 0 && hueToleranceDeg < 60) || !isShare(minimumSaturation) ||
     !isShare(minimumValue) || !isShare(minimumChroma) || !isShare(minimumMedianSaturation))
   {
-    throw std::invalid_argument("ball colour: a hue tolerance between 0 and 180 deg and shares between 0 and 1 are expected");
+    throw std::invalid_argument("ball colour: a hue tolerance between 0 and 60 deg and shares between 0 and 1 are expected");
   }
 }
 
-cv::Mat toHsv(const cv::Mat& image)
+void requireColorImage(const cv::Mat& image)
 {
   if (image.empty())
   {
@@ -43,23 +41,31 @@ cv::Mat toHsv(const cv::Mat& image)
   if (image.channels() != 3 && image.channels() != 4)
   {
     throw std::invalid_argument("the image has " + std::to_string(image.channels()) +
-      " channel: the ball is found by its colour, a BGR or BGRA image is expected");
+      (image.channels() == 1 ? " channel (grey)" : " channels") +
+      ": the ball is found by its colour, an image with 3 channels, or 4 with alpha, is expected");
   }
   if (image.depth() != CV_8U && image.depth() != CV_16U)
   {
     throw std::invalid_argument("the image has neither 8 nor 16 bits a channel");
   }
-  cv::Mat eight = image;
-  if (image.depth() == CV_16U)
+}
+
+const cv::Mat& toEightBits(const cv::Mat& image, cv::Mat& buffer)
+{
+  if (image.depth() == CV_8U)
   {
-    image.convertTo(eight, CV_8U, 1.0 / 257);
+    return image;
   }
-  if (eight.channels() == 4)
-  {
-    cv::cvtColor(eight, eight, cv::COLOR_BGRA2BGR);
-  }
-  cv::Mat hsv;
-  cv::cvtColor(eight, hsv, cv::COLOR_BGR2HSV_FULL);
+  image.convertTo(buffer, CV_8U, 1.0 / 257);
+  return buffer;
+}
+
+cv::Mat toHsv(const cv::Mat& image, BallColor::ChannelOrder order)
+{
+  requireColorImage(image);
+  cv::Mat buffer, hsv;
+  const bool isBgr = order == BallColor::ChannelOrder::Bgr;
+  cv::cvtColor(toEightBits(image, buffer), hsv, isBgr ? cv::COLOR_BGR2HSV_FULL : cv::COLOR_RGB2HSV_FULL);
   return hsv;
 }
 
@@ -85,32 +91,6 @@ cv::Mat ballColorMask(const cv::Mat& hsv, const BallColor& color)
   }
   cv::inRange(hsv, cv::Scalar(0, toByte(color.minimumSaturation), toByte(color.minimumValue)), cv::Scalar(255, 255, 255), isVivid);
   return isHue & isVivid;
-}
-
-std::vector<BallColor> colorLevels(const BallColor& color)
-{
-  struct Demand
-  {
-    double saturation;
-    double chroma;
-  };
-  static const Demand demands[] = { { 0.52, 0 }, { 0.66, 0 }, { 0.45, 0.35 }, { 0.6, 0.55 } };
-  std::vector<BallColor> levels = { color };
-  for (const Demand& demand : demands)
-  {
-    BallColor level = color;
-    level.minimumSaturation = std::max(color.minimumSaturation, demand.saturation);
-    level.minimumChroma = std::max(color.minimumChroma, demand.chroma);
-    levels.push_back(level);
-  }
-  return levels;
-}
-
-cv::Mat highlightMask(const cv::Mat& hsv)
-{
-  cv::Mat mask;
-  cv::inRange(hsv, cv::Scalar(0, 0, toByte(HighlightValue)), cv::Scalar(255, 255, 255), mask);
-  return mask;
 }
 
 }  // namespace handeye

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,14 @@ struct BallDetectionOptions
   double minimumRadiusPx = 5;
   /// Least share of the outline that must be seen as a sharp edge of the ball.
   double minimumVisibleShare = 0.35;
-  /// Least share of the outline's inside (as far as it is in the image) that must have the ball's colour or be a highlight.
+  /// Least share of what the seen part of the outline encloses that must have the ball's colour or be a highlight.
   double minimumFill = 0.75;
   /// Two balls are told apart when one is better than the other by this factor; otherwise neither is taken.
   double distinctionFactor = 1.25;
+  /// The working range (mm): a ball that by its apparent size is nearer or further away is not the ball. The distance is known to
+  /// 15 %, so much is allowed beyond.
+  double nearestMm = 0;
+  double furthestMm = std::numeric_limits<double>::infinity();
 
   /// @throws std::invalid_argument with a sentence where a number makes no sense
   void check() const;
@@ -46,6 +51,8 @@ struct BallDetection
     NotFound,          ///< nothing in the image looks like the ball
     SeveralBalls,      ///< two or more places look equally like it
     TooLittleVisible,  ///< a ball is there, but too little of its outline is seen
+    OutOfRange,        ///< what looks like the ball is outside of the working range
+    Elsewhere          ///< what looks like the ball is not where the tracker puts it
   };
 
   Status status = Status::NotFound;
@@ -65,7 +72,7 @@ struct BallDetection
 /// Finds the ball in an image.
 ///
 /// Frames: `Camera` and pixels as CameraModel has them; the image is the recorded, distorted one.
-/// @param image BGR or BGRA, 8 or 16 bit, rows may have a stride; grey images are refused, the ball is found by its colour
+/// @param image BGR or BGRA, 8 or 16 bit, rows may have a stride (options.color says when it is RGB or RGBA); grey images are refused, the ball is found by its colour
 /// @param camera the lens; its image size, if known, must be that of the image
 /// @param ballRadiusMm radius of the ball, mm
 /// @throws std::invalid_argument for an empty image, another type, another size than the camera's, a radius that is not positive

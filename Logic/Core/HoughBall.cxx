@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HoughBall.h"
 
-#include "BallColor.h"
-
 #include <opencv2/imgproc.hpp>
 
 #include <vector>
@@ -11,15 +9,26 @@
 namespace handeye
 {
 
-std::optional<HoughCircle> findHoughCircle(const cv::Mat& image, const HoughBallOptions& options)
+cv::Mat houghMask(const cv::Mat& image, const HoughBallOptions& options)
 {
   BallColor red;
   red.hueToleranceDeg = options.hueToleranceDeg;
   red.minimumSaturation = options.minimumSaturation;
   red.minimumValue = options.minimumValue;
-  cv::Mat smoothed = ballColorMask(toHsv(image), red);
-  cv::GaussianBlur(smoothed, smoothed, { options.gaussianSizePx, options.gaussianSizePx }, options.gaussianSigmaPx);
+  return ballColorMask(toHsv(image, options.channelOrder), red);
+}
+
+cv::Mat houghSmoothed(const cv::Mat& mask, const HoughBallOptions& options)
+{
+  cv::Mat smoothed;
+  cv::GaussianBlur(mask, smoothed, { options.gaussianSizePx, options.gaussianSizePx }, options.gaussianSigmaPx);
   cv::medianBlur(smoothed, smoothed, options.medianSizePx);
+  return smoothed;
+}
+
+std::optional<HoughCircle> findHoughCircle(const cv::Mat& image, const HoughBallOptions& options)
+{
+  const cv::Mat smoothed = houghSmoothed(houghMask(image, options), options);
   std::vector<cv::Vec3f> circles;
   cv::HoughCircles(smoothed, circles, cv::HOUGH_GRADIENT, options.accumulatorScale, smoothed.rows / 4.0, options.cannyThreshold,
     options.accumulatorThreshold);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "BallColor.h"
+
 #include <opencv2/core.hpp>
 
 #include <optional>
@@ -25,6 +27,7 @@ struct HoughBallOptions
   double accumulatorScale = 2;  ///< Hough: image resolution over accumulator resolution
   double cannyThreshold = 100;
   double accumulatorThreshold = 30;
+  BallColor::ChannelOrder channelOrder = BallColor::ChannelOrder::Bgr;
 };
 
 struct HoughCircle
@@ -32,6 +35,10 @@ struct HoughCircle
   cv::Point2d center_Image;  ///< px
   double radiusPx = 0;
 };
+
+/// The first two stages: 255 where a pixel is red enough, and that smoothed.
+cv::Mat houghMask(const cv::Mat& image, const HoughBallOptions& options = {});
+cv::Mat houghSmoothed(const cv::Mat& mask, const HoughBallOptions& options = {});
 
 /// The strongest circle in the thresholded image; nothing if there is none.
 /// @param image BGR or BGRA, 8 or 16 bit

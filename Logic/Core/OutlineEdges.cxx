@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace handeye
@@ -15,14 +16,16 @@ namespace handeye
 namespace
 {
 
-constexpr double StepPx = 0.25;
+constexpr double Pi = double(EIGEN_PI);
+constexpr double CoarseStepPx = 0.5;
+constexpr double FineStepPx = 0.25;
 constexpr double MinimumContrast = 0.08;
-/// How much the light varies: by noise (of full light), and along its own colour by shading (of itself).
+/// How much the light varies: by noise (of full light), and along its own colour by shading (of itself). As long as the outline is not
+/// known the light that shading takes away towards the limb must not be taken for it: there it is the colour that counts.
 constexpr float LightNoise = 0.02F;
+constexpr float ShadingRough = 1.0F;
 constexpr float ShadingInside = 0.1F;
 constexpr float ShadingOutside = 0.1F;
-constexpr int FewestNormals = 48;
-constexpr int MostNormals = 240;
 /// Width of the stretch inside and outside over which the light on either side is averaged.
 constexpr double ReferencePx = 1.5;
 /// The references start this many blurs from the edge, but not closer than NearestReferencePx.
@@ -30,211 +33,330 @@ constexpr double BlursToReference = 1.25;
 constexpr double NearestReferencePx = 1.5;
 constexpr double FurthestReferencePx = 5;
 constexpr double UnknownBlurPx = 1.0;
+/// Neighbours along the outline whose references are averaged, to either side, where they differ by less than this share of the
+/// contrast.
+constexpr int NeighboursToEitherSide = 3;
+constexpr float AlikeShare = 0.25F;
+/// The blurred step that is fitted is never sharper than this (px): bilinear sampling alone blurs that much.
+constexpr double SharpestPx = 0.35;
+constexpr int MatchingRounds = 3;
 
-float sRgbToLinear(double value)
-{
-  return float(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
-}
-
-/// The light along one normal, from -reach to reach px.
-struct Profile
-{
-  std::vector<float> level;  ///< 1 inside, 0 outside
-  double contrast = 0;
-};
-
-class ProfileReader
+/// A normal distribution: its integral and its density, tabulated.
+class Bell
 {
 public:
-  /// @param anchored the expected outline is good to a pixel: the light is compared on either side of it. Otherwise on either side
-  ///        of the
-  ///        steepest fall, which a shadow on the ball may draw inwards.
-  ProfileReader(const LinearLightImage& image, double reachPx, double referencePx, bool anchored)
-    : image_(image)
-    , anchored_(anchored)
-    , reach_(reachPx)
-    , reference_(referencePx)
-    , half_(int(std::ceil((reachPx + referencePx + ReferencePx) / StepPx)))
-    , light_(std::size_t(2 * half_ + 1))
-  {
-  }
+  static constexpr double Reach = 4;
 
-  /// The place of the edge (px along the normal) nearest to the expected one; false if there is none.
-  bool findEdge(const Eigen::Vector2d& point, const Eigen::Vector2d& normal, double& place, double& contrast, double& blur)
+  struct Value
   {
-    if (!image_.inside(point + half_ * StepPx * normal) || !image_.inside(point - half_ * StepPx * normal))
-    {
-      return false;
-    }
-    for (int i = -half_; i <= half_; ++i)
-    {
-      const Eigen::Vector2d at = point + i * StepPx * normal;
-      light_[std::size_t(i + half_)] = image_.at(at.x(), at.y());
-    }
-    double centre = anchored_ ? 0 : steepest();
-    for (int round = 0; round < (anchored_ ? 1 : 3); ++round)
-    {
-      if (std::abs(centre) > reach_ || !locate(centre, contrast, blur))
-      {
-        return false;
-      }
-    }
-    place = centre;
-    return std::abs(place) <= reach_;
+    double integral;
+    double density;
+  };
+
+  /// @param x within Reach
+  static Value at(double x)
+  {
+    static const Bell bell;
+    const double place = (x + Reach) * PerUnit;
+    const int i = std::clamp(int(place), 0, Steps - 1);
+    const double f = place - i;
+    const Value &low = bell.table_[std::size_t(i)], &high = bell.table_[std::size_t(i) + 1];
+    return { low.integral + f * (high.integral - low.integral), low.density + f * (high.density - low.density) };
   }
 
 private:
-  Eigen::Vector3f mean(double from, double to) const
+  static constexpr int PerUnit = 64;
+  static constexpr int Steps = int(2 * Reach) * PerUnit;
+
+  Bell()
   {
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    const int first = int(std::lround(from / StepPx)) + half_, last = int(std::lround(to / StepPx)) + half_;
-    for (int i = first; i <= last; ++i)
+    for (int i = 0; i <= Steps; ++i)
     {
-      sum += light_[std::size_t(std::clamp(i, 0, 2 * half_))];
+      const double x = double(i) / PerUnit - Reach;
+      table_[std::size_t(i)] = { 0.5 * std::erfc(-x / std::sqrt(2.0)), std::exp(-x * x / 2) / std::sqrt(2 * Pi) };
     }
-    return sum / float(last - first + 1);
   }
 
-  double steepest() const
-  {
-    const int gap = std::max(1, int(1.0 / StepPx));
-    const int limit = int(reach_ / StepPx);
-    float most = 0;
-    int where = 0;
-    for (int i = -limit; i <= limit; ++i)
-    {
-      const float change = (light_[std::size_t(i + half_ + gap)] - light_[std::size_t(i + half_ - gap)]).norm();
-      if (change > most)
-      {
-        most = change;
-        where = i;
-      }
-    }
-    return where * StepPx;
-  }
+  std::array<Value, Steps + 1> table_;
+};
+
+/// The light on either side of the edge.
+struct Sides
+{
+  Eigen::Vector3f inside = Eigen::Vector3f::Zero();
+  Eigen::Vector3f outside = Eigen::Vector3f::Zero();
+  Eigen::Vector3f insideChange = Eigen::Vector3f::Zero();   ///< from further in to `inside`
+  Eigen::Vector3f outsideChange = Eigen::Vector3f::Zero();  ///< from further out to `outside`
+
+  float contrast() const { return (inside - outside).norm(); }
 
   /// The direction of colour along which inside and outside are told apart, scaled so that they are 1 apart: Fisher's discriminant
   /// for light that varies by noise and, on either side, along its own colour by shading. A ball that darkens towards its limb
   /// keeps its colour; so where the background differs in colour its brightness hardly counts, and where it does not, brightness is
   /// what there is.
-  static Eigen::Vector3f discriminant(const Eigen::Vector3f& inside, const Eigen::Vector3f& outside)
+  Eigen::Vector3f discriminant(float shadingInside) const
   {
     const Eigen::Matrix3f variation = LightNoise * LightNoise * Eigen::Matrix3f::Identity() +
-      ShadingInside * ShadingInside * inside * inside.transpose() + ShadingOutside * ShadingOutside * outside * outside.transpose();
+      shadingInside * shadingInside * inside * inside.transpose() + ShadingOutside * ShadingOutside * outside * outside.transpose();
     const Eigen::Vector3f across = inside - outside;
     const Eigen::Vector3f direction = variation.inverse() * across;
     return direction / direction.dot(across);
   }
+};
 
-  /// One refinement of the edge's place from the light on either side of it.
-  bool locate(double& centre, double& contrast, double& blur) const
+/// Where the step of a profile is, and how wide.
+struct Step
+{
+  double place = 0;
+  double blur = 0;
+};
+
+/// The light along the normals of an outline.
+class Profiles
+{
+public:
+  Profiles(const LinearLightImage& image, const SphereCone::Outline& outline, double reachPx, double referencePx, double stepPx, float shading)
+    : step_(stepPx)
+    , shading_(shading)
+    , reach_(reachPx)
+    , reference_(referencePx)
+    , half_(int(std::ceil((reachPx + referencePx + 2 * ReferencePx) / stepPx)))
+    , isUsable_(outline.points_Image.size())
+    , light_(outline.points_Image.size() * std::size_t(2 * half_ + 1))
   {
-    const Eigen::Vector3f inside = mean(centre - reference_ - ReferencePx, centre - reference_);
-    const Eigen::Vector3f outside = mean(centre + reference_, centre + reference_ + ReferencePx);
-    const Eigen::Vector3f across = inside - outside;
-    contrast = across.norm();
-    if (contrast < MinimumContrast)
+    for (std::size_t i = 0; i < isUsable_.size(); ++i)
     {
-      return false;
+      const Eigen::Vector2d &point = outline.points_Image[i], along = stepPx * outline.normals_Image[i];
+      isUsable_[i] = image.inside(point + half_ * along) && image.inside(point - half_ * along);
+      for (int k = -half_; k <= half_ && isUsable_[i]; ++k)
+      {
+        const Eigen::Vector2d at = point + k * along;
+        light(i)[k + half_] = image.at(at.x(), at.y());
+      }
     }
-    const Eigen::Vector3f direction = discriminant(inside, outside);
-    const int first = int(std::lround((centre - reference_) / StepPx)), last = int(std::lround((centre + reference_) / StepPx));
+  }
+
+  std::size_t count() const { return isUsable_.size(); }
+  bool isUsable(std::size_t i) const { return isUsable_[i]; }
+
+  /// Where the light changes most, changes along the ball's own colour counting less.
+  double steepest(std::size_t i) const
+  {
+    const int gap = std::max(1, int(1.0 / step_)), limit = int(reach_ / step_);
+    float most = 0;
+    int where = 0;
+    for (int k = -limit; k <= limit; ++k)
+    {
+      const Eigen::Vector3f &inside = light(i)[k + half_ - gap], change = light(i)[k + half_ + gap] - inside;
+      const float size = inside.norm(), along = size > 0 ? change.dot(inside) / size : 0;
+      const float across = std::max(0.0F, change.squaredNorm() - along * along);
+      const float shading = shading_ * size;
+      const float distinct = across / (LightNoise * LightNoise) + along * along / (LightNoise * LightNoise + shading * shading);
+      if (distinct > most)
+      {
+        most = distinct;
+        where = k;
+      }
+    }
+    return where * step_;
+  }
+
+  /// The light on either side of a place.
+  Sides sides(std::size_t i, double centre) const
+  {
+    const double far = reference_ + ReferencePx, furthest = far + ReferencePx;
+    Sides sides;
+    sides.inside = mean(i, centre - far, centre - reference_);
+    sides.outside = mean(i, centre + reference_, centre + far);
+    sides.insideChange = sides.inside - mean(i, centre - furthest, centre - far);
+    sides.outsideChange = sides.outside - mean(i, centre + far, centre + furthest);
+    return sides;
+  }
+
+  /// The step by the area under the profile, which uses every sample; false unless the profile falls once.
+  bool byArea(std::size_t i, const Sides& sides, double centre, Step& found) const
+  {
+    const Eigen::Vector3f direction = sides.discriminant(shading_);
+    const float offset = sides.outside.dot(direction);
+    const int first = index((centre - reference_) / step_), last = index((centre + reference_) / step_);
     double area = 0, spread = 0;
     int crossings = 0;
     float before = 0;
-    for (int i = first; i <= last; ++i)
+    for (int k = first; k <= last; ++k)
     {
-      const float level = (light_[std::size_t(std::clamp(i + half_, 0, 2 * half_))] - outside).dot(direction);
-      const double share = i == first || i == last ? 0.5 : 1;
-      area += share * StepPx * double(level);
-      spread += share * StepPx * std::max(0.0, double(level) * (1 - double(level)));
-      crossings += i > first && ((before >= 0.5F) != (level >= 0.5F)) ? 1 : 0;
+      const float level = light(i)[k].dot(direction) - offset;
+      const double share = k == first || k == last ? 0.5 : 1;
+      area += share * step_ * double(level);
+      spread += share * step_ * std::max(0.0, double(level) * (1 - double(level)));
+      crossings += k > first && ((before >= 0.5F) != (level >= 0.5F)) ? 1 : 0;
       before = level;
     }
-    if (crossings != 1)
+    found = { (first - half_) * step_ + area, spread * std::sqrt(Pi) };
+    return crossings == 1;
+  }
+
+  /// The blurred step that fits the profile best.
+  bool byMatching(std::size_t i, const Sides& sides, double blurPx, double& place) const
+  {
+    const Eigen::Vector3f direction = sides.discriminant(shading_);
+    const float offset = sides.outside.dot(direction);
+    const double blur = std::max(blurPx, SharpestPx), start = place;
+    for (int round = 0; round < MatchingRounds; ++round)
     {
-      return false;
+      const int first = index((place - 3 * blur) / step_), last = index((place + 3 * blur) / step_);
+      double sum = 0, weight = 0;
+      for (int k = first; k <= last; ++k)
+      {
+        const Bell::Value bell = Bell::at((place - (k - half_) * step_) / blur);
+        sum += bell.density * (double(light(i)[k].dot(direction) - offset) - bell.integral);
+        weight += bell.density * bell.density;
+      }
+      place += sum / weight * blur;
+      if (!(std::abs(place - start) <= reference_))
+      {
+        return false;
+      }
     }
-    centre = first * StepPx + area;
-    blur = spread * std::sqrt(EIGEN_PI);
     return true;
   }
 
-  const LinearLightImage& image_;
-  bool anchored_;
+  /// The place that is found moves by this much per level that a side is wrong by; and a side is wrong by what it changes on the way to
+  /// the edge.
+  double shadingPx(const Sides& sides, double blurPx) const
+  {
+    const Eigen::Vector3f direction = sides.discriminant(shading_);
+    const double wrong = std::hypot(double(sides.insideChange.dot(direction)), double(sides.outsideChange.dot(direction)));
+    return std::sqrt(Pi) * std::max(blurPx, SharpestPx) * wrong;
+  }
+
+private:
+  int index(double steps) const { return std::clamp(int(std::lround(steps)) + half_, 0, 2 * half_); }
+  Eigen::Vector3f* light(std::size_t i) { return light_.data() + i * std::size_t(2 * half_ + 1); }
+  const Eigen::Vector3f* light(std::size_t i) const { return light_.data() + i * std::size_t(2 * half_ + 1); }
+
+  Eigen::Vector3f mean(std::size_t i, double from, double to) const
+  {
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    const int first = index(from / step_), last = index(to / step_);
+    for (int k = first; k <= last; ++k)
+    {
+      sum += light(i)[k];
+    }
+    return sum / float(last - first + 1);
+  }
+
+  double step_;
+  float shading_;
   double reach_;
   double reference_;
   int half_;
+  std::vector<char> isUsable_;
   std::vector<Eigen::Vector3f> light_;
 };
 
+/// The expected outline is rough: the edge is near the steepest fall, and the references move with it.
+OutlineEdges findRoughly(const Profiles& profiles, double reachPx, std::vector<double>& blurs)
+{
+  OutlineEdges result;
+  for (std::size_t i = 0; i < profiles.count(); ++i)
+  {
+    Step step;
+    bool isFound = profiles.isUsable(i);
+    step.place = isFound ? profiles.steepest(i) : 0;
+    double contrast = 0;
+    for (int round = 0; round < 2 && isFound; ++round)
+    {
+      const Sides sides = profiles.sides(i, step.place);
+      contrast = double(sides.contrast());
+      isFound = contrast >= MinimumContrast && profiles.byArea(i, sides, step.place, step) && std::abs(step.place) <= reachPx;
+    }
+    if (isFound)
+    {
+      result.edges.push_back({ i, step.place, contrast, 0 });
+      blurs.push_back(step.blur);
+    }
+  }
+  return result;
+}
+
+/// References of their own are noisy: each is averaged with those beside it that are alike.
+std::vector<Sides> smooth(const std::vector<Sides>& own, const std::vector<char>& isGood)
+{
+  std::vector<Sides> smoothed = own;
+  const int count = int(own.size());
+  for (int i = 0; i < count; ++i)
+  {
+    const Sides& centre = own[std::size_t(i)];
+    const float alike = AlikeShare * centre.contrast();
+    Sides sum;
+    float inside = 0, outside = 0;
+    for (int k = -NeighboursToEitherSide; k <= NeighboursToEitherSide && isGood[std::size_t(i)]; ++k)
+    {
+      const auto j = std::size_t((i + k + count) % count);
+      const bool isInsideAlike = isGood[j] && (own[j].inside - centre.inside).norm() < alike;
+      const bool isOutsideAlike = isGood[j] && (own[j].outside - centre.outside).norm() < alike;
+      if (isInsideAlike)
+      {
+        sum.inside += own[j].inside;
+        sum.insideChange += own[j].insideChange;
+        ++inside;
+      }
+      if (isOutsideAlike)
+      {
+        sum.outside += own[j].outside;
+        sum.outsideChange += own[j].outsideChange;
+        ++outside;
+      }
+    }
+    if (inside > 0 && outside > 0)
+    {
+      smoothed[std::size_t(i)] = { sum.inside / inside, sum.outside / outside, sum.insideChange / inside, sum.outsideChange / outside };
+    }
+  }
+  return smoothed;
+}
+
+/// The expected outline is good to a pixel and the blur is known: the light is compared on either side of the outline itself, so that
+/// a shadow on the ball does not draw the edge inwards.
+OutlineEdges findFinely(const Profiles& profiles, const OutlineSearch& search, std::vector<double>& blurs)
+{
+  std::vector<Sides> own(profiles.count());
+  std::vector<char> isGood(profiles.count());
+  for (std::size_t i = 0; i < profiles.count(); ++i)
+  {
+    if (profiles.isUsable(i))
+    {
+      own[i] = profiles.sides(i, 0);
+      isGood[i] = double(own[i].contrast()) >= MinimumContrast;
+    }
+  }
+  const std::vector<Sides> sides = smooth(own, isGood);
+  OutlineEdges result;
+  for (std::size_t i = 0; i < profiles.count(); ++i)
+  {
+    Step step;
+    if (isGood[i] && profiles.byArea(i, sides[i], 0, step) && profiles.byMatching(i, sides[i], search.blurPx, step.place) &&
+      std::abs(step.place) <= search.reachPx)
+    {
+      result.edges.push_back({ i, step.place, double(sides[i].contrast()), profiles.shadingPx(sides[i], search.blurPx) });
+      blurs.push_back(step.blur);
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
-LinearLightImage::LinearLightImage(const cv::Mat& image)
-  : image_(image)
+OutlineEdges findOutlineEdges(const LinearLightImage& image, const SphereCone::Outline& expected, const OutlineSearch& search)
 {
-  const int count = image.depth() == CV_16U ? 65536 : 256;
-  table_.resize(std::size_t(count));
-  for (int value = 0; value < count; ++value)
-  {
-    table_[std::size_t(value)] = sRgbToLinear(double(value) / (count - 1));
-  }
-}
-
-bool LinearLightImage::inside(const Eigen::Vector2d& point_Image) const
-{
-  return point_Image.x() >= 0 && point_Image.y() >= 0 && point_Image.x() < image_.cols - 1 && point_Image.y() < image_.rows - 1;
-}
-
-template<typename Pixel> Eigen::Vector3f LinearLightImage::interpolate(double x, double y) const
-{
-  const int column = int(x), row = int(y), channels = image_.channels();
-  const float fx = float(x - column), fy = float(y - row);
-  const Pixel* upper = image_.ptr<Pixel>(row) + column * channels;
-  const Pixel* lower = image_.ptr<Pixel>(row + 1) + column * channels;
-  Eigen::Vector3f light;
-  for (int c = 0; c < 3; ++c)
-  {
-    const float top = table_[upper[c]] * (1 - fx) + table_[upper[c + channels]] * fx;
-    const float bottom = table_[lower[c]] * (1 - fx) + table_[lower[c + channels]] * fx;
-    light[c] = top * (1 - fy) + bottom * fy;
-  }
-  return light;
-}
-
-Eigen::Vector3f LinearLightImage::at(double x, double y) const
-{
-  return image_.depth() == CV_16U ? interpolate<ushort>(x, y) : interpolate<uchar>(x, y);
-}
-
-OutlineEdges findOutlineEdges(
-  const LinearLightImage& image, const CameraModel& camera, const SphereCone& expected, double reachPx, double blurPx)
-{
-  const double radiusPx = std::tan(expected.halfAngle) * (camera.fx() + camera.fy()) / 2;
-  const int count = std::clamp(int(2 * EIGEN_PI * radiusPx / 1.5), FewestNormals, MostNormals);
-  const double blur = blurPx > 0 ? blurPx : UnknownBlurPx;
-  const double reference = std::min(std::clamp(BlursToReference * blur, NearestReferencePx, FurthestReferencePx), 0.4 * radiusPx);
-  const SphereCone::Outline outline = expected.outline(camera, count);
-
-  OutlineEdges result;
-  result.searched = count;
-  ProfileReader reader(image, std::min(reachPx, 0.6 * radiusPx), reference, blurPx > 0);
+  const bool isRough = !(search.blurPx > 0);
+  const double blur = isRough ? UnknownBlurPx : search.blurPx;
+  const double reference =
+    std::min(std::clamp(BlursToReference * blur, NearestReferencePx, FurthestReferencePx), 0.4 * search.radiusPx);
+  const double reach = std::min(search.reachPx, 0.6 * search.radiusPx);
+  const Profiles profiles(image, expected, reach, reference, isRough ? CoarseStepPx : FineStepPx, isRough ? ShadingRough : ShadingInside);
   std::vector<double> blurs;
-  for (std::size_t i = 0; i < outline.points_Image.size(); ++i)
-  {
-    double place = 0, contrast = 0, edgeBlur = 0;
-    if (!reader.findEdge(outline.points_Image[i], outline.normals_Image[i], place, contrast, edgeBlur))
-    {
-      continue;
-    }
-    const Eigen::Vector2d edge_Image = outline.points_Image[i] + place * outline.normals_Image[i];
-    const CameraModel::Unprojection ray = camera.unproject(edge_Image);
-    if (ray.isUsable())
-    {
-      result.edges.push_back({ edge_Image, ray.ray_Camera, contrast });
-      blurs.push_back(edgeBlur);
-    }
-  }
+  OutlineEdges result = isRough ? findRoughly(profiles, reach, blurs) : findFinely(profiles, search, blurs);
   result.blurPx = blurs.empty() ? 0 : median(blurs);
   return result;
 }

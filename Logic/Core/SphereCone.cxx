@@ -225,32 +225,48 @@ double SphereCone::distance(double radiusMm) const
   return radiusMm / std::sin(halfAngle);
 }
 
+Eigen::Matrix<double, 3, 2> SphereCone::across() const
+{
+  Eigen::Matrix<double, 3, 2> directions;
+  directions.col(0) = axis_Camera.unitOrthogonal();
+  directions.col(1) = axis_Camera.cross(directions.col(0));
+  return directions;
+}
+
+SphereCone SphereCone::moved(const Eigen::Vector3d& step) const
+{
+  return { (axis_Camera + across() * step.head<2>()).normalized(), halfAngle + step.z() };
+}
+
 SphereCone::Outline SphereCone::outline(const CameraModel& camera, int count) const
 {
-  const Eigen::Vector3d across = axis_Camera.unitOrthogonal();
-  const Eigen::Vector3d up = axis_Camera.cross(across);
+  const Eigen::Matrix<double, 3, 2> directions = across();
+  const double cosine = std::cos(halfAngle), sine = std::sin(halfAngle);
   Outline result;
   for (int i = 0; i < count; ++i)
   {
     const double turn = 2 * EIGEN_PI * i / count;
-    const Eigen::Vector3d side = std::cos(turn) * across + std::sin(turn) * up;
-    const Eigen::Vector3d ray = std::cos(halfAngle) * axis_Camera + std::sin(halfAngle) * side;
-    const Eigen::Vector3d along = std::cos(turn) * up - std::sin(turn) * across;
-    const Eigen::Vector3d away = std::cos(halfAngle) * side - std::sin(halfAngle) * axis_Camera;
+    const Eigen::Vector2d turned(std::cos(turn), std::sin(turn));
+    const Eigen::Vector3d side = directions * turned;
+    const Eigen::Vector3d ray = cosine * axis_Camera + sine * side;
+    const Eigen::Vector3d along = directions * Eigen::Vector2d(-turned.y(), turned.x());
+    const Eigen::Vector3d away = cosine * side - sine * axis_Camera;
     Eigen::Matrix<double, 2, 3> jacobian;
     const CameraModel::Projection pixel = camera.project(ray, &jacobian);
     if (!pixel.isUsable())
     {
       continue;
     }
-    const Eigen::Vector2d tangent = jacobian * along;
-    Eigen::Vector2d normal(tangent.y(), -tangent.x());
-    if (normal.dot(jacobian * away) < 0)
+    const Eigen::Vector2d tangent = jacobian * along, outwards = jacobian * away;
+    Eigen::Vector2d normal = Eigen::Vector2d(tangent.y(), -tangent.x()).normalized();
+    if (normal.dot(outwards) < 0)
     {
       normal = -normal;
     }
     result.points_Image.push_back(pixel.point_Image);
-    result.normals_Image.push_back(normal.normalized());
+    result.normals_Image.push_back(normal);
+    result.turns.push_back(turn);
+    result.rates.emplace_back(Eigen::Vector3d(turned.x(), turned.y(), 1) * normal.dot(outwards));
   }
   return result;
 }

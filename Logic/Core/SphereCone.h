@@ -30,8 +30,15 @@ struct SphereCone
   {
     std::vector<Eigen::Vector2d> points_Image;
     std::vector<Eigen::Vector2d> normals_Image;
+    std::vector<double> turns;           ///< rad about the axis
+    std::vector<Eigen::Vector3d> rates;  ///< px along the normal per rad of moved()'s three parameters
   };
   Outline outline(const CameraModel& camera, int count) const;
+
+  /// The cone with its axis tipped (rad) towards the directions of a turn of 0 and of pi / 2, and its half angle changed (rad).
+  SphereCone moved(const Eigen::Vector3d& step) const;
+  /// The directions of a turn of 0 and of pi / 2, as columns.
+  Eigen::Matrix<double, 3, 2> across() const;
 };
 
 /// The cone through three rays (unit length). @return a half angle of 0 if they lie on one great circle or the cone is not narrower

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Capture.h"
 
+#include "BallTracker.h"
 #include "FileError.h"
 
 #include <cmath>
@@ -34,8 +35,7 @@ void trackTip(const io::Recording& recording, const ToolNames& tools, const Eige
   captured.tip_Marker = marker.transform.inverse() * tip_Tracker;
 }
 
-CapturedFrame detectInFrame(
-  const io::Recording& recording, int frame, const CameraModel& camera, double ballRadiusMm, const BallDetectionOptions& options)
+template<typename Detect> CapturedFrame detectInFrame(const io::Recording& recording, int frame, Detect detect)
 {
   CapturedFrame captured;
   captured.frame = frame;
@@ -45,7 +45,7 @@ CapturedFrame detectInFrame(
     captured.message = "the frame has no image";
     return captured;
   }
-  captured.ball = detectBall(recording.image(frame), camera, ballRadiusMm, options);
+  captured.ball = detect(recording.image(frame));
   captured.status = toString(captured.ball.status);
   captured.message = captured.ball.message;
   return captured;
@@ -84,8 +84,17 @@ CameraModel cameraForRecording(const CameraModel& camera, const io::Recording& r
 std::vector<CapturedFrame> detectBalls(const io::Recording& recording, const CameraModel& camera, double ballRadiusMm,
   const BallDetectionOptions& options, const Progress& progress)
 {
-  const CameraModel sized = cameraForRecording(camera, recording);
-  return readFrames(recording, progress, [&](int frame) { return detectInFrame(recording, frame, sized, ballRadiusMm, options); });
+  const BallDetector detector(cameraForRecording(camera, recording), ballRadiusMm, options);
+  const auto detect = [&](const cv::Mat& image) { return detector.detect(image); };
+  return readFrames(recording, progress, [&](int frame) { return detectInFrame(recording, frame, detect); });
+}
+
+std::vector<CapturedFrame> followBall(const io::Recording& recording, const CameraModel& camera, double ballRadiusMm,
+  const BallDetectionOptions& options, const Progress& progress)
+{
+  BallTracker tracker(BallDetector(cameraForRecording(camera, recording), ballRadiusMm, options));
+  const auto detect = [&](const cv::Mat& image) { return tracker.next(image); };
+  return readFrames(recording, progress, [&](int frame) { return detectInFrame(recording, frame, detect); });
 }
 
 std::vector<CapturedFrame> readCapture(const io::Recording& recording, const ToolNames& tools, const CameraModel& camera,
@@ -93,11 +102,12 @@ std::vector<CapturedFrame> readCapture(const io::Recording& recording, const Too
 {
   recording.requireTransform(tools.markerToTracker);
   recording.requireTransform(tools.stylusToTracker);
-  const CameraModel sized = cameraForRecording(camera, recording);
+  const BallDetector detector(cameraForRecording(camera, recording), ballRadiusMm, options);
+  const auto detect = [&](const cv::Mat& image) { return detector.detect(image); };
   return readFrames(recording, progress,
     [&](int frame)
     {
-      CapturedFrame captured = detectInFrame(recording, frame, sized, ballRadiusMm, options);
+      CapturedFrame captured = detectInFrame(recording, frame, detect);
       trackTip(recording, tools, tip_Stylus, captured);
       return captured;
     });

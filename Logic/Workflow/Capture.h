@@ -46,13 +46,18 @@ struct CapturedFrame
 /// @throws io::FileError where the recording has no images, std::invalid_argument where they are not of the camera's size
 CameraModel cameraForRecording(const CameraModel& camera, const io::Recording& recording);
 
-/// Finds the ball in every frame.
+/// Finds the ball in every frame, each for itself.
 /// @throws io::FileError where the recording has no images; std::invalid_argument where they do not suit the camera
 /// @return as many frames as there are, or fewer if `progress` stopped it
 std::vector<CapturedFrame> detectBalls(const io::Recording& recording, const CameraModel& camera, double ballRadiusMm,
   const BallDetectionOptions& options = {}, const Progress& progress = {});
 
-/// The same, and where the tracker says the ball is: tip_Marker = inverse(markerToTracker) * stylusToTracker * tip_Stylus.
+/// The same for a video: in each frame the ball is first looked for near its last place.
+std::vector<CapturedFrame> followBall(const io::Recording& recording, const CameraModel& camera, double ballRadiusMm,
+  const BallDetectionOptions& options = {}, const Progress& progress = {});
+
+/// The same as detectBalls(), and where the tracker says the ball is:
+/// tip_Marker = inverse(markerToTracker) * stylusToTracker * tip_Stylus.
 /// @throws as detectBalls(), and io::FileError, listing the transforms that there are, where a tool is not in the recording
 std::vector<CapturedFrame> readCapture(const io::Recording& recording, const ToolNames& tools, const CameraModel& camera,
   const Eigen::Vector3d& tip_Stylus, double ballRadiusMm, const BallDetectionOptions& options = {}, const Progress& progress = {});

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CalibrationStep.h"
+#include "BallOptions.h"
 #include "CameraFile.h"
 #include "CommandOutput.h"
 #include "Commands.h"
@@ -21,7 +22,7 @@ struct CalibrateArguments
   std::string recording, camera, stylus;
   std::string rightRecording, rightCamera, leftToRight;
   double ballRadiusMm = 0;
-  BallDetectionOptions detection;
+  BallOptions ball;
   HandEyeCalibrationOptions calibration;
   bool keepAll = false;
   ToolNames tools;
@@ -37,8 +38,8 @@ EyeCapture readEye(const CalibrateArguments& arguments, const std::string& recor
   arguments.output.warn(recording.warnings());
   const CameraModel camera = cameraForRecording(file.camera, recording);
   return { camera,
-    readCapture(recording, arguments.tools, camera, tip_Stylus, arguments.ballRadiusMm, arguments.detection,
-      arguments.output.progress("looking for the ball" + label + ", frame")) };
+    readCapture(recording, arguments.tools, camera, tip_Stylus, arguments.ballRadiusMm,
+      arguments.ball.forRecording(recording, arguments.output), arguments.output.progress("looking for the ball" + label + ", frame")) };
 }
 
 /// The frames that are not used, one a line, with the reason.
@@ -125,7 +126,7 @@ void addCalibrateCommand(CLI::App& app, int& exitCode)
   addCameraOption(*command, arguments->camera);
   command->add_option("--stylus", arguments->stylus, "What `handeye pivot` wrote")->required()->type_name("stylus.json");
   addBallRadiusOption(*command, arguments->ballRadiusMm);
-  addSegmentationOption(*command, arguments->detection.method);
+  arguments->ball.addTo(*command);
   addSolverOption(*command, arguments->calibration.method);
   command->add_flag(
     "--keep-all", arguments->keepAll, "Use all samples, also those that disagree with the rest (as the paper does)");

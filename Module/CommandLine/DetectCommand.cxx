@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BallOptions.h"
 #include "CameraFile.h"
 #include "CommandOutput.h"
 #include "Commands.h"
 #include "CommonOptions.h"
+#include "DetectionStages.h"
 #include "ResultFiles.h"
 
 #include <cmath>
@@ -17,9 +19,10 @@ namespace
 
 struct DetectArguments
 {
-  std::string recording, camera;
+  std::string recording, camera, stages;
   double ballRadiusMm = 0;
-  BallDetectionOptions detection;
+  BallOptions ball;
+  bool follow = false;
   CommandOutput output;
 };
 
@@ -29,8 +32,17 @@ int runDetect(const DetectArguments& arguments)
   const io::Recording recording = io::Recording::openImages(arguments.recording);
   arguments.output.warn(file.warnings);
   arguments.output.warn(recording.warnings());
-  const std::vector<CapturedFrame> frames = detectBalls(
-    recording, file.camera, arguments.ballRadiusMm, arguments.detection, arguments.output.progress("looking for the ball, frame"));
+  const CameraModel camera = cameraForRecording(file.camera, recording);
+  const BallDetectionOptions options = arguments.ball.forRecording(recording, arguments.output);
+  const Progress progress = arguments.output.progress("looking for the ball, frame");
+  const std::vector<CapturedFrame> frames = arguments.follow
+    ? followBall(recording, camera, arguments.ballRadiusMm, options, progress)
+    : detectBalls(recording, camera, arguments.ballRadiusMm, options, progress);
+  if (!arguments.stages.empty())
+  {
+    writeDetectionStages(arguments.stages, recording, camera, arguments.ballRadiusMm, options, frames);
+    arguments.output.say("stages in            " + arguments.stages);
+  }
   arguments.output.say("frame  centre (px)         sigma (px)  radius (px)  distance (mm)  status");
   for (const CapturedFrame& captured : frames)
   {
@@ -53,7 +65,10 @@ void addDetectCommand(CLI::App& app, int& exitCode)
   addRecordingArgument(*command, arguments->recording, "Recording with images");
   addCameraOption(*command, arguments->camera);
   addBallRadiusOption(*command, arguments->ballRadiusMm);
-  addSegmentationOption(*command, arguments->detection.method);
+  arguments->ball.addTo(*command);
+  command->add_flag("--follow", arguments->follow, "The recording is a video: look first where the last frame had the ball");
+  command->add_option("--stages", arguments->stages, "Write four pictures a frame into this folder: mask, smoothed, edges, outline")
+    ->type_name("DIR");
   arguments->output.addTo(*command);
   command->callback([arguments, &exitCode] { exitCode = runDetect(*arguments); });
 }

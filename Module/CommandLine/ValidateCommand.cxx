@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BallOptions.h"
 #include "CommandOutput.h"
 #include "Commands.h"
 #include "CommonOptions.h"
@@ -19,6 +20,7 @@ struct ValidateArguments
 {
   std::string recording, calibration, report;
   std::string stylusTransform, markerTransform;
+  BallOptions ball;
   CommandOutput output;
 };
 
@@ -31,8 +33,8 @@ int runValidate(const ValidateArguments& arguments)
   tools.stylusToTracker = arguments.stylusTransform.empty() ? tools.stylusToTracker : arguments.stylusTransform;
   tools.markerToTracker = arguments.markerTransform.empty() ? tools.markerToTracker : arguments.markerTransform;
   const CameraModel camera = cameraForRecording(stored.camera, recording);
-  const std::vector<CapturedFrame> frames = readCapture(
-    recording, tools, camera, stored.tip_Stylus, stored.ballRadiusMm, {}, arguments.output.progress("looking for the ball, frame"));
+  const std::vector<CapturedFrame> frames = readCapture(recording, tools, camera, stored.tip_Stylus, stored.ballRadiusMm,
+    arguments.ball.forRecording(recording, arguments.output), arguments.output.progress("looking for the ball, frame"));
   const ValidationStepResult step = validateCapture(frames, camera, stored.markerToCamera);
   if (step.isUsable())
   {
@@ -68,6 +70,7 @@ void addValidateCommand(CLI::App& app, int& exitCode)
   addRecordingArgument(*command, arguments->recording, "Another capture: images and tracking");
   addCalibrationOption(*command, arguments->calibration);
   command->add_option("--report", arguments->report, "Write report.html and a picture a frame into this folder")->type_name("DIR");
+  arguments->ball.addTo(*command);
   addTransformOption(*command, "--stylus-transform", arguments->stylusTransform, "stylus");
   addTransformOption(*command, "--marker-transform", arguments->markerTransform, "camera's marker");
   arguments->output.addTo(*command);

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LinearLightImage.h"
+
+#include <cmath>
+#include <vector>
+
+namespace handeye
+{
+
+namespace
+{
+
+std::vector<float> makeTable(int count)
+{
+  std::vector<float> table;
+  for (int i = 0; i < count; ++i)
+  {
+    const double value = double(i) / (count - 1);
+    table.push_back(float(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4)));
+  }
+  return table;
+}
+
+const float* tableFor(int depth)
+{
+  static const std::vector<float> eight = makeTable(256);
+  if (depth == CV_8U)
+  {
+    return eight.data();
+  }
+  static const std::vector<float> sixteen = makeTable(65536);
+  return sixteen.data();
+}
+
+}  // namespace
+
+LinearLightImage::LinearLightImage(const cv::Mat& image)
+  : image_(image)
+  , table_(tableFor(image.depth()))
+{
+}
+
+template<typename Pixel> Eigen::Vector3f LinearLightImage::interpolate(double x, double y) const
+{
+  const int column = int(x), row = int(y), channels = image_.channels();
+  const float fx = float(x - column), fy = float(y - row);
+  const Pixel* upper = image_.ptr<Pixel>(row) + column * channels;
+  const Pixel* lower = image_.ptr<Pixel>(row + 1) + column * channels;
+  Eigen::Vector3f light;
+  for (int c = 0; c < 3; ++c)
+  {
+    const float top = table_[upper[c]] * (1 - fx) + table_[upper[c + channels]] * fx;
+    const float bottom = table_[lower[c]] * (1 - fx) + table_[lower[c + channels]] * fx;
+    light[c] = top * (1 - fy) + bottom * fy;
+  }
+  return light;
+}
+
+Eigen::Vector3f LinearLightImage::at(double x, double y) const
+{
+  return image_.depth() == CV_16U ? interpolate<ushort>(x, y) : interpolate<uchar>(x, y);
+}
+
+}  // namespace handeye

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+namespace handeye
+{
+
+/// An image sampled in linear light.
+///
+/// Cameras encode light with a gamma; an edge sits where the linear light is half way, not where the pixel value is. The curve
+/// undone here is sRGB's, which consumer and surgical cameras follow closely.
+class LinearLightImage
+{
+public:
+  /// @param image 3 or 4 channels, 8 or 16 bit; not copied, must outlive this object
+  explicit LinearLightImage(const cv::Mat& image);
+
+  /// The light of the first three channels (0 to 1) at a place between pixels, bilinear; the place must be inside().
+  Eigen::Vector3f at(double x, double y) const;
+  bool inside(const Eigen::Vector2d& point_Image) const
+  {
+    return point_Image.x() >= 0 && point_Image.y() >= 0 && point_Image.x() < image_.cols - 1 && point_Image.y() < image_.rows - 1;
+  }
+
+private:
+  template<typename Pixel> Eigen::Vector3f interpolate(double x, double y) const;
+
+  const cv::Mat& image_;
+  const float* table_;  ///< pixel value to linear light
+};
+
+}  // namespace handeye
