@@ -14,8 +14,8 @@ namespace handeye::bench
 
 /// A short video of a ball on a stylus that a hand moves through a cluttered room, 60 frames a second, in memory.
 ///
-/// The room is a collage of rendered frames at their own scale; the ball is drawn analytically in linear light, with the optics' blur
-/// and that of its motion; then noise (1.5 grey levels) and JPEG (quality 92).
+/// The room is a collage of rendered frames at their own scale; the ball is drawn analytically in linear light, with the optics'
+/// blur and that of its motion; then noise (1.5 grey levels) and JPEG (quality 92).
 struct BallVideo
 {
   CameraModel camera;

@@ -42,7 +42,8 @@ def draw_lens(axes, rows, hidden_shares, noises):
         for noise in noises:
             bounds = sorted((row["radius_px"], row["bound_px"]) for row in rows
                             if row["hidden_share"] == hidden and row["noise"] == noise and row["off_axis_deg"] == angles[0])
-            axes[1].plot(*zip(*bounds), color=COLORS.get(hidden, "black"), linewidth=0.8, linestyle="-" if noise == noises[0] else "--")
+            axes[1].plot(*zip(*bounds), color=COLORS.get(hidden, "black"), linewidth=0.8,
+                         linestyle="-" if noise == noises[0] else "--")
 
 
 def main():
@@ -73,7 +74,8 @@ def main():
     grid[0, 0].minorticks_off()
     handles = [plt.Line2D([], [], color=COLORS.get(h, "black"), marker="s", linestyle="none", label=f"{100 * h:g} % hidden")
                for h in hidden_shares]
-    handles += [plt.Line2D([], [], color="black", marker=MARKERS.get(n, "x"), linestyle="none", label=f"noise {n:g}") for n in noises]
+    handles += [plt.Line2D([], [], color="black", marker=MARKERS.get(n, "x"), linestyle="none", label=f"noise {n:g}")
+                for n in noises]
     figure.legend(handles=handles, loc="lower center", ncol=len(handles), frameon=False)
     figure.tight_layout(rect=(0, 0.035, 1, 1))
     figure.savefig(sys.argv[2], dpi=90)

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How well the ball's centre is found, against the truth and against the bound that the noise of the pixels sets: apparent radius 6 to
-// 200 px, 0 to 35 deg off the axis, three lenses, up to half of the outline hidden, noise of 1 to 3 grey levels. One line of CSV a
-// condition on standard output; plot_segmentation.py draws it.
+// How well the ball's centre is found, against the truth and against the bound that the noise of the pixels sets: apparent radius
+// 6 to 200 px, 0 to 35 deg off the axis, three lenses, up to half of the outline hidden, noise of 1 to 3 grey levels. One line of
+// CSV a condition on standard output; plot_segmentation.py draws it.
 #include "SegmentationStudy.h"
 
 #include <CLI/CLI.hpp>

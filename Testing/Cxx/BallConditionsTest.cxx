@@ -67,6 +67,17 @@ double errorPx(const BallDetection& found, const Place& place)
                                        << sigmaPx(found) << " px";
 }
 
+void expectFound(const BallDetection& found, const Place& place, double tolerancePx)
+{
+  if (!found.isFound())
+  {
+    ADD_FAILURE() << "not found: " << found.message;
+    return;
+  }
+  EXPECT_LT(errorPx(found, place), tolerancePx);
+  EXPECT_TRUE(isHonest(found, place));
+}
+
 /// The cases of a condition: every background, with its name for a failure's message.
 class BallConditions : public ::testing::TestWithParam<Background>
 {
@@ -106,8 +117,8 @@ TEST_P(BallConditions, MotionBlur_IsOwnedUpToOrRefused)
           EXPECT_GT(lengthPx, 4) << "a hand that is nearly still must not be refused: " << found.message;
           continue;
         }
-        EXPECT_LT(errorPx(found, place), 1);
         EXPECT_TRUE(isHonest(found, place));
+        EXPECT_TRUE(lengthPx > 4 || errorPx(found, place) < 0.3) << errorPx(found, place) << " px off";
         if (lengthPx >= 7)
         {
           EXPECT_GT(sigmaPx(found), sigmaPx(sharp)) << "a smeared outline is a worse one";
@@ -126,9 +137,7 @@ TEST_P(BallConditions, OverExposed_RedIsClippedAndTheCenterStays)
     {
       SCOPED_TRACE("radius " + std::to_string(int(radiusPx)) + " px, " + std::to_string(int(exposure)) + " times the light");
       const BallDetection found = detect(scene().add(place.ball).photograph(exposure));
-      ASSERT_EQ(found.status, Status::Found) << found.message;
-      EXPECT_LT(errorPx(found, place), 0.3);
-      EXPECT_TRUE(isHonest(found, place));
+      expectFound(found, place, 0.3);
     }
   }
 }
@@ -145,9 +154,7 @@ TEST_P(BallConditions, LargeHighlight_IsPartOfTheBall)
       const Eigen::Vector2d highlight = place.center_Image + offset * radiusPx * Eigen::Vector2d(-0.6, -0.8);
       const cv::Mat image = scene().add(place.ball).disc(highlight, 0.42 * radiusPx, LampWhite).photograph(1.5);
       const BallDetection found = detect(image);
-      ASSERT_EQ(found.status, Status::Found) << found.message;
-      EXPECT_LT(errorPx(found, place), 0.3);
-      EXPECT_TRUE(isHonest(found, place));
+      expectFound(found, place, 0.3);
     }
   }
 }
@@ -168,9 +175,7 @@ TEST_P(BallConditions, Dim_IsFoundAsLongAsThereIsColor)
     {
       SCOPED_TRACE("radius " + std::to_string(int(radiusPx)) + " px, " + std::to_string(exposure) + " of the light");
       const BallDetection found = detect(scene().add(place.ball).photograph(exposure, 2));
-      ASSERT_EQ(found.status, Status::Found) << found.message;
-      EXPECT_LT(errorPx(found, place), 0.4);
-      EXPECT_TRUE(isHonest(found, place));
+      expectFound(found, place, 0.4);
     }
   }
 }
@@ -196,10 +201,8 @@ TEST_P(BallConditions, HalfHidden_IsFoundWhereTheBallIs)
         ConditionScene picture = scene();
         picture.add(place.ball).hand(place.center_Image, radiusPx, visibleShare, angle);
         const BallDetection found = detect(picture.photograph());
-        ASSERT_EQ(found.status, Status::Found) << found.message;
-        EXPECT_LT(errorPx(found, place), 0.3);
-        EXPECT_TRUE(isHonest(found, place));
-        EXPECT_NEAR(found.visibleShare, visibleShare, 0.12);
+        expectFound(found, place, 0.3);
+        EXPECT_TRUE(!found.isFound() || std::abs(found.visibleShare - visibleShare) < 0.12) << found.visibleShare;
       }
     }
   }
@@ -215,9 +218,7 @@ TEST_P(BallConditions, FingerAcrossTheBall_IsNoPartOfIt)
     const Eigen::Vector2d knuckle = place.center_Image + 3 * radiusPx * Eigen::Vector2d(0.9, 0.4);
     const cv::Mat image = scene().add(place.ball).finger(tip, knuckle, int(0.6 * radiusPx), GloveBlue).photograph();
     const BallDetection found = detect(image);
-    ASSERT_EQ(found.status, Status::Found) << found.message;
-    EXPECT_LT(errorPx(found, place), 0.3);
-    EXPECT_TRUE(isHonest(found, place));
+    expectFound(found, place, 0.3);
   }
 }
 
@@ -263,8 +264,7 @@ TEST_P(BallConditions, OneBallMuchCloser_IsTheOne)
     SCOPED_TRACE("the further one has " + std::to_string(int(furtherPx)) + " px");
     const Place near = placeOf(0.27, 0.45, 64), far = placeOf(0.75, 0.52, furtherPx);
     const BallDetection found = detect(scene().add(near.ball).add(far.ball).photograph());
-    ASSERT_EQ(found.status, Status::Found) << found.message;
-    EXPECT_LT(errorPx(found, near), 0.3);
+    expectFound(found, near, 0.3);
   }
 }
 
@@ -274,8 +274,7 @@ TEST_P(BallConditions, OneBallMoreThanHalfHidden_TheOtherIsTheOne)
   ConditionScene picture = scene();
   picture.add(whole.ball).add(hidden.ball).hand(hidden.center_Image, 32, 0.38, 0.5);
   const BallDetection found = detect(picture.photograph());
-  ASSERT_EQ(found.status, Status::Found) << found.message;
-  EXPECT_LT(errorPx(found, whole), 0.3);
+  expectFound(found, whole, 0.3);
 }
 
 TEST_P(BallConditions, NoBall_IsNotFound)
@@ -357,9 +356,7 @@ TEST_P(BallConditions, BallHeldByARedGlove_IsFound)
   ConditionScene picture = scene();
   picture.glove({ 430, 475 }, 130, BallRed * 0.7F).add(place.ball);
   const BallDetection found = detect(picture.photograph());
-  ASSERT_EQ(found.status, Status::Found) << found.message;
-  EXPECT_LT(errorPx(found, place), 0.3);
-  EXPECT_TRUE(isHonest(found, place));
+  expectFound(found, place, 0.3);
 }
 
 TEST(BallConditionsRendered, FramesWithoutBall_AreNotFound)

@@ -30,8 +30,8 @@ inline void PrintTo(const Background& background, std::ostream* os)
   *os << background.name;
 }
 
-/// Balls and other things before a grey table or a cluttered room, photographed by the webcam: for what a detection must answer where
-/// the picture is not as it should be.
+/// Balls and other things before a grey table or a cluttered room, photographed by the webcam: for what a detection must answer
+/// where the picture is not as it should be.
 class ConditionScene
 {
 public:

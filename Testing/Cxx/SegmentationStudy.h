@@ -56,14 +56,14 @@ const std::vector<StudyLens>& studyLenses();
 
 /// Renders, photographs and detects the ball `places` x `draws` times, and works out the bound.
 ///
-/// Each picture is the part of a sensor around the ball, which is as large as it needs to be, so that every lens is tried up to any angle
-/// that its model covers: the camera of a part has its principal point moved.
+/// Each picture is the part of a sensor around the ball, which is as large as it needs to be, so that every lens is tried up to
+/// any angle that its model covers: the camera of a part has its principal point moved.
 ///
-/// The bound: the covariance of the ball's centre in the image that no unbiased estimate can be below, from the derivatives of the noise-free
-/// picture by the ball's three coordinates (central differences of the renderer, a quarter of a pixel to either side), white noise of the
-/// given size and that of rounding (1/12) in each pixel and channel. Colours, blur and the curve of the encoding count as known, the
-/// hiding edge as well: an estimate that has to find these out as well has a slightly larger bound. Its square is the mean of the two
-/// coordinates' variances.
+/// The bound: the covariance of the ball's centre in the image that no unbiased estimate can be below, from the derivatives of
+/// the noise-free picture by the ball's three coordinates (central differences of the renderer, a quarter of a pixel to either
+/// side), white noise of the given size and that of rounding (1/12) in each pixel and channel. Colours, blur and the curve of the
+/// encoding count as known, the hiding edge as well: an estimate that has to find these out as well has a slightly larger bound.
+/// Its square is the mean of the two coordinates' variances.
 ///
 /// Deterministic.
 /// @throws std::invalid_argument for a lens that is not known, or a ball that the lens model does not cover
