@@ -41,9 +41,9 @@ constexpr double LargestRoughSigmaPx = 0.7;
 
 /// A ball that is smaller than the largest one by this factor is far away: not the one that is held.
 constexpr double MuchSmaller = 3;
-/// An outline whose edges are so much wider (px) on two opposite sides moved while the picture was taken, by 8 px or more. Shading and
-/// reflections alone make up to 0.95.
-constexpr double LargestTwoSidedWidthPx = 1.75;
+/// An outline whose edges are so much wider (px) on two opposite sides moved while the picture was taken, by 10 px or more. Shading and
+/// reflections alone make up to 2.
+constexpr double LargestTwoSidedWidthPx = 2.2;
 
 /// A ball that was found.
 struct Found

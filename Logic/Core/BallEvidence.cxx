@@ -31,7 +31,7 @@ constexpr double FurthestAcrossPx = 4;
 constexpr double LeastColor = 0.35;
 /// Something in front of the ball, a finger, may cover this much of what the seen outline encloses where the rim is well filled.
 constexpr double LeastBehindFinger = 0.45;
-constexpr double RimBesideFinger = 0.5;
+constexpr double RimBesideFinger = 0.7;
 constexpr double SigmaBesideFingerPx = 0.25;
 /// Along a line from the centre to a seen point of the outline the colour is looked at in these places, as shares of the way.
 constexpr double AlongRadius[] = { 0.5, 0.6, 0.7, 0.8, 0.9 };

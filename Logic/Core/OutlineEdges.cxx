@@ -42,13 +42,15 @@ constexpr double WidthReferencePx = 7;
 constexpr double FewestWidths = 0.7;
 /// Neighbours along the outline whose references are averaged, to either side, where they differ by less than this share of the
 /// contrast.
-constexpr int NeighboursToEitherSide = 3;
+constexpr int NeighboursToEitherSide = 6;
 constexpr float AlikeShare = 0.25F;
 /// The blurred step that is fitted is never sharper than this (px): bilinear sampling alone blurs that much.
 constexpr double SharpestPx = 0.35;
 /// Light above this is clipped, and nobody knows by how much: so much of the step may be missing.
 constexpr float ClippedLight = 0.97F;
 constexpr double ClippedLevel = 0.2;
+/// Even without light there is noise, as much as this light makes.
+constexpr float DarkLight = 0.02F;
 constexpr int MatchingRounds = 3;
 
 /// A normal distribution: its integral and its density, tabulated.
@@ -207,12 +209,13 @@ public:
     return crossings == 1;
   }
 
-  /// The blurred step that fits the profile best.
+  /// The blurred step that fits the profile best, every sample by its noise: encoded light is noisier where it is brighter.
   bool byMatching(std::size_t i, const Sides& sides, double blurPx, double& place) const
   {
     const Eigen::Vector3f direction = sides.discriminant(shading_);
     const float offset = sides.outside.dot(direction);
     const double blur = std::max(blurPx, SharpestPx), start = place;
+    const double inside = noiseVariance(sides.inside, direction), outside = noiseVariance(sides.outside, direction);
     for (int round = 0; round < MatchingRounds; ++round)
     {
       const int first = index((place - 3 * blur) / step_), last = index((place + 3 * blur) / step_);
@@ -220,8 +223,9 @@ public:
       for (int k = first; k <= last; ++k)
       {
         const Bell::Value bell = Bell::at((place - (k - half_) * step_) / blur);
-        sum += bell.density * (double(light(i)[k].dot(direction) - offset) - bell.integral);
-        weight += bell.density * bell.density;
+        const double weighted = bell.density / (outside + bell.integral * (inside - outside));
+        sum += weighted * (double(light(i)[k].dot(direction) - offset) - bell.integral);
+        weight += weighted * bell.density;
       }
       place += sum / weight * blur;
       if (!(std::abs(place - start) <= reference_))
@@ -230,6 +234,12 @@ public:
       }
     }
     return true;
+  }
+
+  /// Of the level along a direction, up to a factor: a gamma near 2 makes the noise of encoded light grow with the root of the light.
+  static double noiseVariance(const Eigen::Vector3f& light, const Eigen::Vector3f& direction)
+  {
+    return double((direction.cwiseAbs2().array() * (light.array().max(0) + DarkLight)).sum());
   }
 
   /// How far apart (px) the places nearest to the outline are where the light has fallen to three quarters and to a quarter; false where
