@@ -65,7 +65,6 @@ struct BallDetection
   double radiusPx = 0;                                         ///< apparent radius: the root of the outline's area over pi
   double distanceMm = 0;                                       ///< of the ball's centre from the camera, from its apparent size
   double visibleShare = 0;                                     ///< share of the outline that was seen
-  double blurVariationPx=0;
   double confidence = 0;  ///< 0 to 1: visible share, times share of the inside that has the ball's colour, less for scattered edges
   std::vector<Eigen::Vector2d> outline_Image;  ///< the edge points (px) that the fit rests on
 

@@ -37,13 +37,15 @@ constexpr double DistanceTolerance = 0.15;
 /// A scatter (px) of the edge points above this is not the outline of a ball: balls have 0.1 to 0.2 px, other things 0.3 and more. A
 /// rough fit scatters more.
 constexpr double LargestSigmaPx = 0.4;
-constexpr double LargestRoughSigmaPx = 0.7;
+constexpr double LargestRoughSigmaPx = 1.0;
 
 /// A ball that is smaller than the largest one by this factor is far away: not the one that is held.
 constexpr double MuchSmaller = 3;
 /// An outline whose edges are so much wider (px) on two opposite sides moved while the picture was taken, by 10 px or more. Shading and
 /// reflections alone make up to 2.
 constexpr double LargestTwoSidedWidthPx = 2.2;
+/// From this on half of it is added to the standard deviation.
+constexpr double NoticeableTwoSidedWidthPx = 1;
 
 /// A ball that was found.
 struct Found
@@ -202,12 +204,13 @@ BallDetection describe(const Found& found, const CameraModel& camera, double bal
 {
   BallDetection result;
   describe(found.fit.cone.axis_Camera, found.fit.axisCovariance, camera, result);
+  const double motionPx = found.fit.twoSidedWidthPx > NoticeableTwoSidedWidthPx ? found.fit.twoSidedWidthPx / 2 : 0;
+  result.covariance_Image += motionPx * motionPx * Eigen::Matrix2d::Identity();
   result.status = Status::Found;
   result.message = "ball found";
   result.radiusPx = found.evidence.radiusPx;
   result.distanceMm = found.fit.cone.distance(ballRadiusMm);
   result.visibleShare = found.fit.visibleShare;
-  result.blurVariationPx=found.fit.twoSidedWidthPx;
   result.confidence = found.score();
   result.outline_Image = found.fit.support_Image;
   return result;

@@ -31,8 +31,10 @@ constexpr double FurthestAcrossPx = 4;
 constexpr double LeastColor = 0.35;
 /// Something in front of the ball, a finger, may cover this much of what the seen outline encloses where the rim is well filled.
 constexpr double LeastBehindFinger = 0.45;
-constexpr double RimBesideFinger = 0.7;
+constexpr double RimBesideFinger = 0.5;
 constexpr double SigmaBesideFingerPx = 0.25;
+constexpr double VisibleBesideFinger = 0.6;
+constexpr double RadiusBesideFingerPx = 12;
 /// Along a line from the centre to a seen point of the outline the colour is looked at in these places, as shares of the way.
 constexpr double AlongRadius[] = { 0.5, 0.6, 0.7, 0.8, 0.9 };
 /// Of larger balls not every pixel is looked at, but about this many.
@@ -172,7 +174,8 @@ BallEvidence judgeOutline(const OutlineFit& fit, const cv::Mat& image, const Bal
   const Inside inside = lookInside(image, levels, level, seen);
   const double filled = std::min(1.0, inside.colored + inside.highlights);
   const double rim = rimFill(fit, levels, level, camera.project(fit.cone.axis_Camera).point_Image);
-  const bool isBesideFinger = rim >= RimBesideFinger && filled >= LeastBehindFinger && fit.sigmaPx <= SigmaBesideFingerPx;
+  const bool isBesideFinger = rim >= RimBesideFinger && filled >= LeastBehindFinger && fit.sigmaPx <= SigmaBesideFingerPx &&
+    fit.visibleShare >= VisibleBesideFinger && evidence.radiusPx >= RadiusBesideFingerPx;
   evidence.fill = isBesideFinger ? std::max(filled, options.minimumFill) : filled;
   evidence.continuedShare = continuedShare(levels, level, outline, fit, evidence.radiusPx);
   const bool isWhole = evidence.continuedShare <= LargestContinuedShare * (fit.visibleShare + evidence.continuedShare);

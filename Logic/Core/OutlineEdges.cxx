@@ -373,7 +373,8 @@ std::vector<Sides> smooth(const std::vector<Sides>& own, const std::vector<char>
 
 /// The expected outline is good to a pixel and the blur is known: the light is compared on either side of the outline itself, so that
 /// a shadow on the ball does not draw the edge inwards.
-OutlineEdges findFinely(const Profiles& profiles, const OutlineSearch& search, std::vector<double>& blurs)
+OutlineEdges findFinely(
+  const Profiles& profiles, const OutlineSearch& search, double referencePx, std::vector<double>& blurs)
 {
   std::vector<Sides> own(profiles.count());
   std::vector<char> isGood(profiles.count());
@@ -385,7 +386,15 @@ OutlineEdges findFinely(const Profiles& profiles, const OutlineSearch& search, s
       isGood[i] = double(own[i].contrast()) >= MinimumContrast;
     }
   }
-  const std::vector<Sides> sides = smooth(own, isGood);
+  std::vector<Sides> sides = smooth(own, isGood);
+  // The references lie in the tails of the blurred step: what is left of the other side in them is taken out.
+  const double tail = Bell::at(-std::min((referencePx + ReferencePx / 2) / std::max(search.blurPx, SharpestPx), Bell::Reach)).integral;
+  for (Sides& each : sides)
+  {
+    const Eigen::Vector3f missing = float(tail / (1 - 2 * tail)) * (each.inside - each.outside);
+    each.inside += missing;
+    each.outside -= missing;
+  }
   OutlineEdges result;
   for (std::size_t i = 0; i < profiles.count(); ++i)
   {
@@ -411,19 +420,19 @@ OutlineEdges findOutlineEdges(const LinearLightImage& image, const SphereCone::O
   const double reach = std::min(search.reachPx, 0.6 * search.radiusPx);
   const Profiles profiles(image, expected, reach, reference, isRough ? CoarseStepPx : FineStepPx, isRough ? ShadingRough : ShadingInside);
   std::vector<double> blurs;
-  OutlineEdges result = isRough ? findRoughly(profiles, reach, blurs) : findFinely(profiles, search, blurs);
+  OutlineEdges result = isRough ? findRoughly(profiles, reach, blurs) : findFinely(profiles, search, reference, blurs);
   result.blurPx = blurs.empty() ? 0 : median(blurs);
   return result;
 }
 
-double twoSidedWidth(const LinearLightImage& image, const SphereCone::Outline& outline, double radiusPx)
+EdgeWidths measureEdgeWidths(const LinearLightImage& image, const SphereCone::Outline& outline, double radiusPx)
 {
   const double reference = std::min(WidthReferencePx, 0.4 * radiusPx);
   const Profiles profiles(image, outline, 0, reference, CoarseStepPx, ShadingRough);
   using Waves = Eigen::Matrix<double, 5, 1>;
   Eigen::Matrix<double, 5, 5> matrix = Eigen::Matrix<double, 5, 5>::Zero();
   Waves right = Waves::Zero();
-  std::size_t found = 0;
+  std::vector<double> widths;
   for (std::size_t i = 0; i < profiles.count(); ++i)
   {
     double width = 0;
@@ -434,15 +443,21 @@ double twoSidedWidth(const LinearLightImage& image, const SphereCone::Outline& o
       waves << 1, std::cos(turn), std::sin(turn), std::cos(2 * turn), std::sin(2 * turn);
       matrix += waves * waves.transpose();
       right += width * waves;
-      ++found;
+      widths.push_back(width);
     }
   }
-  if (double(found) < FewestWidths * double(profiles.count()))
+  EdgeWidths result;
+  if (!widths.empty())
   {
-    return 0;
+    std::nth_element(widths.begin(), widths.begin() + std::ptrdiff_t(widths.size() / 4), widths.end());
+    result.narrowPx = widths[widths.size() / 4];
   }
-  const Waves sizes = matrix.ldlt().solve(right);
-  return sizes.tail<2>().norm() > sizes.segment<2>(1).norm() ? sizes.tail<2>().norm() : 0;
+  if (double(widths.size()) >= FewestWidths * double(profiles.count()))
+  {
+    const Waves sizes = matrix.ldlt().solve(right);
+    result.twoSidedPx = sizes.tail<2>().norm() > sizes.segment<2>(1).norm() ? sizes.tail<2>().norm() : 0;
+  }
+  return result;
 }
 
 }  // namespace handeye

@@ -40,10 +40,16 @@ struct OutlineSearch
 /// blurred step that fits the profile best, which is as precise as the noise of the pixels allows.
 OutlineEdges findOutlineEdges(const LinearLightImage& image, const SphereCone::Outline& expected, const OutlineSearch& search);
 
-/// How much wider edges are on two opposite sides of an outline than on average (px, from a quarter to three quarters of the step): a
-/// ball that moved while the picture was taken is blurred so. 0 where too little is seen, or where one side alone is wider, which
-/// shading does.
-/// @param outline that of a ball that was found
-double twoSidedWidth(const LinearLightImage& image, const SphereCone::Outline& outline, double radiusPx);
+/// Widths of edges (px, from a quarter to three quarters of the step).
+struct EdgeWidths
+{
+  double narrowPx = 0;  ///< a quarter of the edges are narrower
+  /// How much wider they are on two opposite sides than on average: a ball that moved while the picture was taken is blurred so. 0 where
+  /// too little is seen, or where one side alone is wider, which shading does.
+  double twoSidedPx = 0;
+};
+
+/// @param outline that of a ball, good to a few px
+EdgeWidths measureEdgeWidths(const LinearLightImage& image, const SphereCone::Outline& outline, double radiusPx);
 
 }  // namespace handeye

@@ -27,7 +27,15 @@ struct Pass
 };
 constexpr Pass FirstPass = { 6, 2, 64 };
 constexpr Pass SecondPass = { 3.5, 2, 96 };
-constexpr Pass FinePasses[] = { { 2.5, 1, 1600 }, { 2.5, 1, 1600 } };
+constexpr Pass FinePass = { 2.5, 1, 1600 };
+constexpr int FewestFinePasses = 2;
+constexpr int MostFinePasses = 3;
+/// The outline is where it belongs when a pass moves it by no more than this (px).
+constexpr double SettledPx = 0.5;
+/// Edges blurred by more than this (standard deviation, px) hide how soft they are from references that are near.
+constexpr double SoftPx = 2.0;
+/// From the width between a quarter and three quarters of a blurred step to its standard deviation.
+constexpr double WidthToBlur = 1 / 1.349;
 constexpr int FewestNormals = 48;
 constexpr std::size_t FewestEdges = 12;
 /// Fewer edges than this share of the normals, and it is not worth to go on.
@@ -45,6 +53,8 @@ constexpr double SmallestSigmaPx = 0.01;
 /// share of what the light's change on either side may move a single edge by. Measured on rendered captures.
 constexpr int LongestWaves = 3;
 constexpr double ShadingToWave = 0.65;
+/// However even the light is, the lens model and the gamma curve are not known better.
+constexpr double LeastWavePx = 0.025;
 
 double tukey(double residual, double sigma)
 {
@@ -95,7 +105,7 @@ public:
     {
       shading.push_back(edge.shadingPx * edge.shadingPx);
     }
-    const double waveVariance = ShadingToWave * ShadingToWave * median(shading);
+    const double waveVariance = ShadingToWave * ShadingToWave * median(shading) + LeastWavePx * LeastWavePx;
     for (int wave = 0; wave <= LongestWaves; ++wave)
     {
       for (const double phase : { 0.0, Pi / 2 })
@@ -181,14 +191,16 @@ public:
 
   std::optional<OutlineFit> fitFinely()
   {
-    for (const Pass& pass : FinePasses)
+    const EdgeWidths widths = measureWidths();
+    softnessPx_ = widths.narrowPx * WidthToBlur > SoftPx ? widths.narrowPx * WidthToBlur : 0;
+    for (int pass = 0; pass < FewestFinePasses || (pass < MostFinePasses && movedPx_ > SettledPx); ++pass)
     {
-      if (!look(pass) || !fitOffsets())
+      if (!look(FinePass) || !fitOffsets())
       {
         return std::nullopt;
       }
     }
-    fit_.twoSidedWidthPx = twoSidedWidth(light_, fit_.cone.outline(camera_, FewestNormals), radiusPx());
+    fit_.twoSidedWidthPx = measureWidths().twoSidedPx;
     return fit_;
   }
 
@@ -205,9 +217,14 @@ private:
     searched_ = std::clamp(int(2 * Pi * radiusPx() / pass.pixelsPerNormal), FewestNormals, pass.mostNormals);
     reachPx_ = pass.reachPx;
     outline_ = fit_.cone.outline(camera_, searched_);
-    found_ = findOutlineEdges(light_, outline_, { pass.reachPx, radiusPx(), fit_.blurPx });
-    fit_.blurPx = found_.blurPx;
+    found_ = findOutlineEdges(light_, outline_, { pass.reachPx, radiusPx(), fit_.blurPx > 0 ? std::max(fit_.blurPx, softnessPx_) : 0 });
+    fit_.blurPx = std::max(found_.blurPx, softnessPx_);
     return found_.edges.size() >= FewestEdges && double(found_.edges.size()) >= FewestEdgesShare * searched_;
+  }
+
+  EdgeWidths measureWidths() const
+  {
+    return measureEdgeWidths(light_, fit_.cone.outline(camera_, FewestNormals), radiusPx());
   }
 
   bool fitRays()
@@ -241,6 +258,11 @@ private:
     fit_.sigmaPx = step.sigmaPx();
     const Eigen::Matrix<double, 3, 2> across = fit_.cone.across();
     fit_.axisCovariance = across * step.covariance() * across.transpose();
+    movedPx_ = 0;
+    for (const Eigen::Vector3d& rate : outline_.rates)
+    {
+      movedPx_ = std::max(movedPx_, std::abs(rate.dot(step.step())));
+    }
     fit_.cone = fit_.cone.moved(step.step());
     fit_.support_Image.clear();
     fit_.supportTurns.clear();
@@ -265,6 +287,8 @@ private:
   OutlineEdges found_;
   int searched_ = 0;
   double reachPx_ = 0;
+  double movedPx_ = 0;
+  double softnessPx_ = 0;
 };
 
 }  // namespace
