@@ -118,8 +118,8 @@ BallColorLearningResult learnBallColor(const cv::Mat& image, const cv::Point& pi
   const cv::Mat hsv = toHsv(image, order);
   if (!cv::Rect({ 0, 0 }, image.size()).contains(pixel))
   {
-    throw std::invalid_argument("the place (" + std::to_string(pixel.x) + ", " + std::to_string(pixel.y) + ") lies outside of the image of " +
-      std::to_string(image.cols) + " x " + std::to_string(image.rows) + " px");
+    throw std::invalid_argument("the place (" + std::to_string(pixel.x) + ", " + std::to_string(pixel.y) +
+      ") lies outside of the image of " + std::to_string(image.cols) + " x " + std::to_string(image.rows) + " px");
   }
   BallColorLearningResult result;
   const double hueDeg = mainHue(hsv, pixel);

@@ -96,8 +96,8 @@ struct Thresholds
 };
 
 /// One row of three planes. Branch-free, so that the compiler makes it work on several pixels at once.
-HANDEYE_WIDE_VECTORS void readRow(const uchar* blue, const uchar* green, const uchar* red, int count, const HueSector& sector, const Thresholds& limits,
-  uchar* bits)
+HANDEYE_WIDE_VECTORS void readRow(const uchar* blue, const uchar* green, const uchar* red, int count, const HueSector& sector,
+  const Thresholds& limits, uchar* bits)
 {
   for (int i = 0; i < count; ++i)
   {

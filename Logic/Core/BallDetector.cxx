@@ -44,6 +44,9 @@ constexpr double MuchSmaller = 3;
 /// An outline whose edges are so much wider (px) on two opposite sides moved while the picture was taken, by 10 px or more. Shading and
 /// reflections alone make up to 2.
 constexpr double LargestTwoSidedWidthPx = 2.2;
+/// The edge points of something smeared scatter up to so much (px), and all around.
+constexpr double LargestSmearedSigmaPx = 0.6;
+constexpr double VisibleOfSmeared = 0.8;
 /// From this on half of it is added to the standard deviation.
 constexpr double NoticeableTwoSidedWidthPx = 1;
 
@@ -91,7 +94,8 @@ class Findings
 {
 public:
   std::vector<Found> balls;
-  double partlySeen = 0;  ///< visible share of something that is a ball but for that
+  std::vector<Found> smeared;  ///< what would be a ball, had it not moved
+  double partlySeen = 0;       ///< visible share of something that is a ball but for that
 
   template<typename Other> bool has(const Other& other) const
   {
@@ -121,8 +125,15 @@ public:
     }
   }
 
+  /// Puts the best first, and takes out what is only a piece of something smeared.
   void sort()
   {
+    const auto isPiece = [&](const Found& ball)
+    {
+      return std::any_of(smeared.begin(), smeared.end(),
+        [&](const Found& other) { return other.isSameAs(ball) && other.evidence.radiusPx > ball.evidence.radiusPx; });
+    };
+    balls.erase(std::remove_if(balls.begin(), balls.end(), isPiece), balls.end());
     std::sort(balls.begin(), balls.end(), [](const Found& a, const Found& b) { return a.score() > b.score(); });
   }
 };
@@ -178,7 +189,12 @@ private:
     fit = fitOutlineFinely(light_, camera_, *fit);
     if (fit)
     {
-      findings_.add({ *fit, judgeOutline(*fit, image_, levels_, level, camera_, options_, LargestSigmaPx) });
+      const auto judge = [&](double largestSigmaPx)
+      { return judgeOutline(*fit, image_, levels_, level, camera_, options_, largestSigmaPx); };
+      const Found found{ *fit, judge(LargestSigmaPx) };
+      const bool isSmeared = !found.evidence.isBall && fit->twoSidedWidthPx > LargestTwoSidedWidthPx &&
+        fit->visibleShare >= VisibleOfSmeared && judge(LargestSmearedSigmaPx).isBall;
+      isSmeared ? findings_.smeared.push_back(found) : findings_.add(found);
     }
   }
 
@@ -313,7 +329,12 @@ BallDetection BallDetector::detectExact(
 {
   const cv::Rect searched = window & cv::Rect({ 0, 0 }, image.size());
   const std::shared_ptr<const RayGrid> grid = grid_ ? grid_ : std::make_shared<RayGrid>(camera_, image.size());
-  auto [balls, partlySeen] = searched.empty() ? Findings() : Search(image, searched, camera_, *grid, options_).run();
+  auto [balls, smeared, partlySeen] = searched.empty() ? Findings() : Search(image, searched, camera_, *grid, options_).run();
+  const char* const moved = "the ball is seen, but its outline is smeared: hold the ball and the camera still";
+  if (balls.empty() && !smeared.empty())
+  {
+    return refuse(Status::Blurred, moved);
+  }
   if (balls.empty())
   {
     BallDetection none = partlySeen > 0 ? refuse(Status::TooLittleVisible, "too little of the ball's outline is visible")
@@ -328,8 +349,8 @@ BallDetection BallDetector::detectExact(
   {
     return refuse(Status::OutOfRange,
       "something like the ball is seen at " + fixedDigits(best.fit.cone.distance(ballRadiusMm_), 0) +
-        " mm, outside of the working range of " + fixedDigits(options_.nearestMm, 0) + " to " + fixedDigits(options_.furthestMm, 0) +
-        " mm");
+        " mm, outside of the working range of " + fixedDigits(options_.nearestMm, 0) + " to " +
+        fixedDigits(options_.furthestMm, 0) + " mm");
   }
   if (prediction)
   {
@@ -351,15 +372,15 @@ BallDetection BallDetector::detectExact(
   balls.erase(std::remove_if(balls.begin(), balls.end(), isFarAway), balls.end());
   if (balls.size() > 1 && balls[0].score() < options_.distinctionFactor * balls[1].score())
   {
-    return refuse(Status::SeveralBalls, std::to_string(balls.size()) + " things look like the ball: take the others out of the view");
+    return refuse(
+      Status::SeveralBalls, std::to_string(balls.size()) + " things look like the ball: take the others out of the view");
   }
   if (balls.front().fit.twoSidedWidthPx > LargestTwoSidedWidthPx)
   {
-    return refuse(Status::Blurred, "the ball is seen, but its outline is smeared: hold the ball and the camera still");
+    return refuse(Status::Blurred, moved);
   }
   return describe(balls.front(), camera_, ballRadiusMm_);
 }
-
 
 BallDetection BallDetector::detectHough(const cv::Mat& image) const
 {

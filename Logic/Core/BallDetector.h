@@ -50,8 +50,7 @@ public:
   const BallDetectionOptions& options() const { return options_; }
 
 private:
-  BallDetection detectExact(
-    const cv::Mat& image, const cv::Rect& window, const std::optional<BallPrediction>& prediction) const;
+  BallDetection detectExact(const cv::Mat& image, const cv::Rect& window, const std::optional<BallPrediction>& prediction) const;
   BallDetection detectHough(const cv::Mat& image) const;
 
   CameraModel camera_;

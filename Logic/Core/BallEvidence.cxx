@@ -126,7 +126,8 @@ double rimFill(const OutlineFit& fit, const BallColorLevels& levels, int level, 
 }
 
 /// The share of the outline across which the colour goes on and no edge was found.
-double continuedShare(const BallColorLevels& levels, int level, const SphereCone::Outline& outline, const OutlineFit& fit, double radiusPx)
+double continuedShare(
+  const BallColorLevels& levels, int level, const SphereCone::Outline& outline, const OutlineFit& fit, double radiusPx)
 {
   const double across = std::clamp(AcrossShare * radiusPx, NearestAcrossPx, FurthestAcrossPx);
   std::vector<char> isSeen(OutlineCorners + 1);

@@ -16,8 +16,8 @@ namespace handeye
 /// there. Internal to the detection.
 struct BallEvidence
 {
-  double radiusPx = 0;        ///< the root of the outline's area over pi
-  double fill = 0;            ///< share of what the seen outline encloses, or of its rim, that has the ball's colour or is a highlight
+  double radiusPx = 0;  ///< the root of the outline's area over pi
+  double fill = 0;      ///< share of what the seen outline encloses, or of its rim, that has the ball's colour or is a highlight
   double continuedShare = 0;  ///< of the outline: the colour goes on across it, without an edge
   bool isBall = false;        ///< passes every test
   bool isPartOfBall = false;  ///< passes all but the visible share

@@ -71,7 +71,8 @@ void drawBall(cv::Mat& picture, const BallDetection& detection, const std::vecto
   const double arm = std::clamp(detection.radiusPx / 4, 4.0, 15.0);
   for (const Eigen::Vector2d& along : { Eigen::Vector2d(arm, 0), Eigen::Vector2d(0, arm) })
   {
-    cv::line(picture, scaled(detection.ball_Image - along), scaled(detection.ball_Image + along), Yellow, 1, cv::LINE_AA, BinaryPlaces);
+    cv::line(
+      picture, scaled(detection.ball_Image - along), scaled(detection.ball_Image + along), Yellow, 1, cv::LINE_AA, BinaryPlaces);
   }
 }
 

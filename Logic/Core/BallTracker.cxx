@@ -39,8 +39,7 @@ std::optional<cv::Rect> BallTracker::expect(const std::optional<BallPrediction>&
     }
     const double focal = (detector_.camera().fx() + detector_.camera().fy()) / 2;
     const double radiusPx = focal * std::tan(std::asin(detector_.ballRadiusMm() / distance));
-    return windowAround(
-      place.point_Image, (1 + BeyondShare) * radiusPx + BeyondPx + PredictionSigmas * prediction->sigmaPx);
+    return windowAround(place.point_Image, (1 + BeyondShare) * radiusPx + BeyondPx + PredictionSigmas * prediction->sigmaPx);
   }
   if (!last_)
   {

@@ -20,7 +20,9 @@ namespace
 constexpr double Pi = double(EIGEN_PI);
 constexpr double CoarseStepPx = 0.5;
 constexpr double FineStepPx = 0.25;
-constexpr double MinimumContrast = 0.03;
+/// Least contrast (linear light) of an edge, in an image that is well lit: where the brighter side has WellLit. Less in the dark.
+constexpr double MinimumContrast = 0.08;
+constexpr double WellLit = 0.25;
 /// How much the light varies: by noise (of full light), and along its own colour by shading (of itself). As long as the outline is not
 /// known the light that shading takes away towards the limb must not be taken for it: there it is the colour that counts.
 constexpr float LightNoise = 0.02F;
@@ -34,15 +36,15 @@ constexpr double BlursToReference = 1.25;
 constexpr double NearestReferencePx = 1.5;
 constexpr double FurthestReferencePx = 5;
 /// An edge this far (px) from the expected outline counts half.
-constexpr double NearEnoughPx = 3;
+constexpr double NearEnoughPx = 8;
 constexpr double UnknownBlurPx = 1.0;
 /// How far from the outline the light is that an edge's width is measured between.
 constexpr double WidthReferencePx = 7;
 /// Waves of the width are told apart where this share of the outline is seen.
-constexpr double FewestWidths = 0.7;
+constexpr double FewestWidths = 0.4;
 /// Neighbours along the outline whose references are averaged, to either side, where they differ by less than this share of the
 /// contrast.
-constexpr int NeighboursToEitherSide = 6;
+constexpr int NeighboursToEitherSide = 4;
 constexpr float AlikeShare = 0.25F;
 /// The blurred step that is fitted is never sharper than this (px): bilinear sampling alone blurs that much.
 constexpr double SharpestPx = 0.35;
@@ -50,7 +52,7 @@ constexpr double SharpestPx = 0.35;
 constexpr float ClippedLight = 0.97F;
 constexpr double ClippedLevel = 0.2;
 /// Even without light there is noise, as much as this light makes.
-constexpr float DarkLight = 0.02F;
+constexpr float DarkLight = 0.05F;
 constexpr int MatchingRounds = 3;
 
 /// A normal distribution: its integral and its density, tabulated.
@@ -101,6 +103,11 @@ struct Sides
   Eigen::Vector3f outsideChange = Eigen::Vector3f::Zero();  ///< from further out to `outside`
 
   float contrast() const { return (inside - outside).norm(); }
+  bool isEdge() const
+  {
+    const double brighter = double(std::max(inside.norm(), outside.norm()));
+    return double(contrast()) >= MinimumContrast * std::min(1.0, brighter / WellLit);
+  }
 
   /// The direction of colour along which inside and outside are told apart, scaled so that they are 1 apart: Fisher's discriminant
   /// for light that varies by noise and, on either side, along its own colour by shading. A ball that darkens towards its limb
@@ -127,7 +134,8 @@ struct Step
 class Profiles
 {
 public:
-  Profiles(const LinearLightImage& image, const SphereCone::Outline& outline, double reachPx, double referencePx, double stepPx, float shading)
+  Profiles(const LinearLightImage& image, const SphereCone::Outline& outline, double reachPx, double referencePx, double stepPx,
+    float shading)
     : step_(stepPx)
     , shading_(shading)
     , reach_(reachPx)
@@ -165,7 +173,8 @@ public:
       const float across = std::max(0.0F, change.squaredNorm() - along * along);
       const float shading = shading_ * size;
       const float apart = float(k * step_ / NearEnoughPx);
-      const float distinct = (across / (LightNoise * LightNoise) + along * along / (LightNoise * LightNoise + shading * shading)) / (1 + apart * apart);
+      const float distinct =
+        (across / (LightNoise * LightNoise) + along * along / (LightNoise * LightNoise + shading * shading)) / (1 + apart * apart);
       if (distinct > most)
       {
         most = distinct;
@@ -247,7 +256,7 @@ public:
   bool width(std::size_t i, double& widthPx) const
   {
     const Sides both = sides(i, 0);
-    if (double(both.contrast()) < MinimumContrast)
+    if (!both.isEdge())
     {
       return false;
     }
@@ -323,7 +332,7 @@ OutlineEdges findRoughly(const Profiles& profiles, double reachPx, std::vector<d
     {
       const Sides sides = profiles.sides(i, step.place);
       contrast = double(sides.contrast());
-      isFound = contrast >= MinimumContrast && profiles.byArea(i, sides, step.place, step) && std::abs(step.place) <= reachPx;
+      isFound = sides.isEdge() && profiles.byArea(i, sides, step.place, step) && std::abs(step.place) <= reachPx;
     }
     if (isFound)
     {
@@ -365,7 +374,8 @@ std::vector<Sides> smooth(const std::vector<Sides>& own, const std::vector<char>
     }
     if (inside > 0 && outside > 0)
     {
-      smoothed[std::size_t(i)] = { sum.inside / inside, sum.outside / outside, sum.insideChange / inside, sum.outsideChange / outside };
+      smoothed[std::size_t(i)] = { sum.inside / inside, sum.outside / outside, sum.insideChange / inside,
+        sum.outsideChange / outside };
     }
   }
   return smoothed;
@@ -373,8 +383,7 @@ std::vector<Sides> smooth(const std::vector<Sides>& own, const std::vector<char>
 
 /// The expected outline is good to a pixel and the blur is known: the light is compared on either side of the outline itself, so that
 /// a shadow on the ball does not draw the edge inwards.
-OutlineEdges findFinely(
-  const Profiles& profiles, const OutlineSearch& search, double referencePx, std::vector<double>& blurs)
+OutlineEdges findFinely(const Profiles& profiles, const OutlineSearch& search, double referencePx, std::vector<double>& blurs)
 {
   std::vector<Sides> own(profiles.count());
   std::vector<char> isGood(profiles.count());
@@ -383,12 +392,13 @@ OutlineEdges findFinely(
     if (profiles.isUsable(i))
     {
       own[i] = profiles.sides(i, 0);
-      isGood[i] = double(own[i].contrast()) >= MinimumContrast;
+      isGood[i] = own[i].isEdge();
     }
   }
   std::vector<Sides> sides = smooth(own, isGood);
   // The references lie in the tails of the blurred step: what is left of the other side in them is taken out.
-  const double tail = Bell::at(-std::min((referencePx + ReferencePx / 2) / std::max(search.blurPx, SharpestPx), Bell::Reach)).integral;
+  const double tail =
+    Bell::at(-std::min((referencePx + ReferencePx / 2) / std::max(search.blurPx, SharpestPx), Bell::Reach)).integral;
   for (Sides& each : sides)
   {
     const Eigen::Vector3f missing = float(tail / (1 - 2 * tail)) * (each.inside - each.outside);
@@ -418,7 +428,8 @@ OutlineEdges findOutlineEdges(const LinearLightImage& image, const SphereCone::O
   const double reference =
     std::min(std::clamp(BlursToReference * blur, NearestReferencePx, FurthestReferencePx), 0.4 * search.radiusPx);
   const double reach = std::min(search.reachPx, 0.6 * search.radiusPx);
-  const Profiles profiles(image, expected, reach, reference, isRough ? CoarseStepPx : FineStepPx, isRough ? ShadingRough : ShadingInside);
+  const Profiles profiles(
+    image, expected, reach, reference, isRough ? CoarseStepPx : FineStepPx, isRough ? ShadingRough : ShadingInside);
   std::vector<double> blurs;
   OutlineEdges result = isRough ? findRoughly(profiles, reach, blurs) : findFinely(profiles, search, reference, blurs);
   result.blurPx = blurs.empty() ? 0 : median(blurs);

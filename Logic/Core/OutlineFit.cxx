@@ -217,15 +217,13 @@ private:
     searched_ = std::clamp(int(2 * Pi * radiusPx() / pass.pixelsPerNormal), FewestNormals, pass.mostNormals);
     reachPx_ = pass.reachPx;
     outline_ = fit_.cone.outline(camera_, searched_);
-    found_ = findOutlineEdges(light_, outline_, { pass.reachPx, radiusPx(), fit_.blurPx > 0 ? std::max(fit_.blurPx, softnessPx_) : 0 });
+    found_ =
+      findOutlineEdges(light_, outline_, { pass.reachPx, radiusPx(), fit_.blurPx > 0 ? std::max(fit_.blurPx, softnessPx_) : 0 });
     fit_.blurPx = std::max(found_.blurPx, softnessPx_);
     return found_.edges.size() >= FewestEdges && double(found_.edges.size()) >= FewestEdgesShare * searched_;
   }
 
-  EdgeWidths measureWidths() const
-  {
-    return measureEdgeWidths(light_, fit_.cone.outline(camera_, FewestNormals), radiusPx());
-  }
+  EdgeWidths measureWidths() const { return measureEdgeWidths(light_, fit_.cone.outline(camera_, FewestNormals), radiusPx()); }
 
   bool fitRays()
   {

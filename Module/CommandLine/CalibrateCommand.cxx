@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CalibrationStep.h"
 #include "BallOptions.h"
+#include "CalibrationStep.h"
 #include "CameraFile.h"
 #include "CommandOutput.h"
 #include "Commands.h"
@@ -39,7 +39,8 @@ EyeCapture readEye(const CalibrateArguments& arguments, const std::string& recor
   const CameraModel camera = cameraForRecording(file.camera, recording);
   return { camera,
     readCapture(recording, arguments.tools, camera, tip_Stylus, arguments.ballRadiusMm,
-      arguments.ball.forRecording(recording, arguments.output), arguments.output.progress("looking for the ball" + label + ", frame")) };
+      arguments.ball.forRecording(recording, arguments.output),
+      arguments.output.progress("looking for the ball" + label + ", frame")) };
 }
 
 /// The frames that are not used, one a line, with the reason.
