@@ -42,6 +42,8 @@ Status translate(PointLineResult::Status status)
       return Status::Mirrored;
     case PointLineResult::Status::Ambiguous:
       return Status::Ambiguous;
+    case PointLineResult::Status::NotApplicable:
+      return Status::NotApplicable;
   }
   return Status::NotObservable;
 }
@@ -241,7 +243,7 @@ HandEyeCalibrationResult calibrateHandEye(const Samples& samples, const Eyes& ey
   result.message = solution.message;
   result.iterations = solution.iterations;
   result.conditionNumber = solution.conditionNumber;
-  if (result.status == Status::NotObservable || result.status == Status::Mirrored)
+  if (result.status == Status::NotObservable || result.status == Status::Mirrored || result.status == Status::NotApplicable)
   {
     return result;
   }
@@ -269,6 +271,8 @@ std::string toString(Status status)
       return "mirrored";
     case Status::Ambiguous:
       return "ambiguous";
+    case Status::NotApplicable:
+      return "not_applicable";
     case Status::WrongScale:
       return "wrong_scale";
     case Status::MarkerMoved:

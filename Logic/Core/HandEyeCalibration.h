@@ -82,6 +82,7 @@ struct HandEyeCalibrationResult
     NotConverged,   ///< the iteration of `procrustes` reached its cap
     Mirrored,       ///< every solution has the ball behind the camera
     Ambiguous,      ///< two different solutions fit equally well
+    NotApplicable,  ///< the method takes the rays of one camera only
     WrongScale,     ///< the ball's apparent size does not fit its tracked distance
     MarkerMoved,    ///< the first or the last samples in a row agree with each other, but not with the rest
     PoorFit,        ///< the solution does not explain its samples

@@ -11,10 +11,14 @@ namespace handeye
 
 /// The point-to-line cost with its translation eliminated: f(R) = r^T Q r + 2 q^T r + c, r = the columns of R, one below the other.
 ///
-/// Internal to the solver. The points are taken relative to their centroid, which keeps Q well scaled.
+/// Points are taken relative to their centroid and lines relative to the point nearest to all of them, which keeps Q well scaled.
+/// Built in one pass (two if the lines do not share an origin) over the pairs; nothing is allocated. Internal to the solver.
 class PointLineQuadraticForm
 {
 public:
+  using Vector9 = Eigen::Matrix<double, 9, 1>;
+  using Matrix9 = Eigen::Matrix<double, 9, 9>;
+
   explicit PointLineQuadraticForm(const std::vector<PointLinePair>& pairs);
 
   /// False where the lines are parallel, so that no translation can be computed.
@@ -24,19 +28,28 @@ public:
 
   /// The translation that is best for this rotation.
   Eigen::Vector3d translation(const Eigen::Matrix3d& rotation) const;
+  Eigen::Isometry3d pointsToLines(const Eigen::Matrix3d& rotation) const;
 
   /// The local minimum that Newton's method reaches from a rotation (damped where the cost is not convex). Adds its steps to
   /// `steps`.
-  Eigen::Matrix3d descend(Eigen::Matrix3d rotation, int& steps) const;
+  Eigen::Matrix3d descend(const Eigen::Matrix3d& start, int& steps) const;
+
+  /// The rotation nearest to the nine numbers that make the cost smallest without being a rotation: a start close to the global
+  /// minimum where there are six points and more.
+  Eigen::Matrix3d linearStart() const;
+
+  /// Whether it is proven that a minimum is the global one and that no other comes near it: the Lagrangian with the multipliers of
+  /// R^T R = I and R R^T = I is convex, and stays so when `gap` of its curvature is taken away. Says no more often than it must.
+  bool isCertainlyGlobal(const Eigen::Matrix3d& minimum) const;
 
 private:
-  using Vector9 = Eigen::Matrix<double, 9, 1>;
+  void eliminateTranslation(const Eigen::Matrix3d& sum, const Eigen::Matrix<double, 3, 9>& moment);
 
-  Eigen::Matrix<double, 9, 9> quadratic_ = Eigen::Matrix<double, 9, 9>::Zero();
+  Matrix9 quadratic_ = Matrix9::Zero();
   Vector9 linear_ = Vector9::Zero();
   double constant_ = 0;
   Eigen::Matrix<double, 3, 9> rotationToTranslation_ = Eigen::Matrix<double, 3, 9>::Zero();
-  Eigen::Vector3d translationOffset_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d linesCentre_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d centroid_ = Eigen::Vector3d::Zero();
   bool determinesTranslation_ = false;
 };
