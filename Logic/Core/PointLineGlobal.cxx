@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointLineMethods.h"
-#include "PointLineQuadraticForm.h"
 #include "RigidTransform.h"
 
 #include <Eigen/Dense>
@@ -122,9 +121,9 @@ void choose(const PointLinePairs& pairs, const PointLineQuadraticForm& form, con
 
 }  // namespace
 
-void solveGlobal(const PointLinePairs& pairs, const PointLineOptions& options, PointLineResult& result)
+void solveGlobal(
+  const PointLinePairs& pairs, const PointLineQuadraticForm& form, const PointLineOptions& options, PointLineResult& result)
 {
-  const PointLineQuadraticForm form(pairs);
   if (!form.determinesTranslation())
   {
     result.status = Status::NotObservable;

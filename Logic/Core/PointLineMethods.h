@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "PointLineRegistration.h"
+#include "PointLineQuadraticForm.h"
 
 #include <vector>
 
@@ -14,7 +14,8 @@ namespace handeye
 
 using PointLinePairs = std::vector<PointLinePair>;
 
-void solveGlobal(const PointLinePairs& pairs, const PointLineOptions& options, PointLineResult& result);
+void solveGlobal(
+  const PointLinePairs& pairs, const PointLineQuadraticForm& form, const PointLineOptions& options, PointLineResult& result);
 void solveProcrustes(const PointLinePairs& pairs, const PointLineOptions& options, PointLineResult& result);
 void solveOrthogonalIteration(const PointLinePairs& pairs, const PointLineOptions& options, PointLineResult& result);
 void solveProcrustesPnP(const PointLinePairs& pairs, const PointLineOptions& options, PointLineResult& result);

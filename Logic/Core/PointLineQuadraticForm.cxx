@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 namespace handeye
 {
@@ -58,6 +60,36 @@ Packed weightedProjector(const PointLinePair& pair)
   packed << scale * (d.y() * d.y() + d.z() * d.z()), -scale * d.x() * d.y(), -scale * d.x() * d.z(),
     scale * (d.x() * d.x() + d.z() * d.z()), -scale * d.y() * d.z(), scale * (d.x() * d.x() + d.y() * d.y());
   return packed;
+}
+
+/// Where the products of two coordinates stand among 1, x, y, z, xx, xy, xz, yy, yz, zz, the first one not greater.
+int monomialOf(int a, int b)
+{
+  return a == 0 ? 4 + b : a == 1 ? 6 + b : 9;
+}
+
+/// w V, packed, and the ten products of a point's coordinates.
+inline void writeTerms(const PointLinePair& pair, const Eigen::Vector3d& centroid, double* projector, double* monomials)
+{
+  const double *d = pair.direction_Lines.data(), *p = pair.point_Points.data();
+  const double xx = d[0] * d[0], yy = d[1] * d[1], zz = d[2] * d[2], scale = pair.weight / (xx + yy + zz);
+  projector[0] = scale * (yy + zz);
+  projector[1] = -scale * d[0] * d[1];
+  projector[2] = -scale * d[0] * d[2];
+  projector[3] = scale * (xx + zz);
+  projector[4] = -scale * d[1] * d[2];
+  projector[5] = scale * (xx + yy);
+  const double x = p[0] - centroid[0], y = p[1] - centroid[1], z = p[2] - centroid[2];
+  monomials[0] = 1;
+  monomials[1] = x;
+  monomials[2] = y;
+  monomials[3] = z;
+  monomials[4] = x * x;
+  monomials[5] = x * y;
+  monomials[6] = x * z;
+  monomials[7] = y * y;
+  monomials[8] = y * z;
+  monomials[9] = z * z;
 }
 
 Eigen::Vector3d apply(const Packed& packed, const Eigen::Vector3d& v)
@@ -174,63 +206,121 @@ Eigen::Matrix3d roughlyNearestRotation(Eigen::Matrix3d matrix)
 
 }  // namespace
 
-PointLineQuadraticForm::PointLineQuadraticForm(const std::vector<PointLinePair>& pairs)
+PointLineSummary summarizePairs(const std::vector<PointLinePair>& pairs)
 {
-  double totalWeight = 0;
-  const Eigen::Vector3d& firstOrigin = pairs.front().origin_Lines;
-  bool hasCommonOrigin = true;
-  for (const PointLinePair& pair : pairs)
+  PointLineSummary summary;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
   {
-    centroid_ += pair.weight * pair.point_Points;
-    totalWeight += pair.weight;
-    hasCommonOrigin = hasCommonOrigin && pair.origin_Lines == firstOrigin;
-  }
-  centroid_ /= totalWeight;
-  linesCentre_ = firstOrigin;
-  if (!hasCommonOrigin)
-  {
-    Packed sum = Packed::Zero();
-    Eigen::Vector3d offset = Eigen::Vector3d::Zero();
-    for (const PointLinePair& pair : pairs)
+    const PointLinePair& pair = pairs[i];
+    // A product with zero is zero unless a number is infinite or none.
+    const double zero = 0 * (pair.point_Points.sum() + pair.origin_Lines.sum() + pair.direction_Lines.sum() + pair.weight);
+    const double squaredLength = pair.direction_Lines.squaredNorm();
+    if (!(zero == 0 && squaredLength > 0 && squaredLength < std::numeric_limits<double>::infinity() && pair.weight > 0))
     {
-      const Packed weighted = weightedProjector(pair);
-      sum += weighted;
-      offset += apply(weighted, pair.origin_Lines - firstOrigin);
+      throw std::invalid_argument("point and line " + std::to_string(i + 1) +
+        ": finite numbers, a direction that is not zero and a positive weight are expected");
     }
-    linesCentre_ += unpack(sum).ldlt().solve(offset);
+    summary.centroid_Points += pair.weight * pair.point_Points;
+    summary.totalWeight += pair.weight;
+    summary.hasCommonOrigin = summary.hasCommonOrigin && pair.origin_Lines == pairs.front().origin_Lines;
   }
+  summary.centroid_Points /= std::max(summary.totalWeight, 1e-300);
+  return summary;
+}
 
-  // All that the cost holds of a point is its products (1, x, y, z, xx, xy, ...) with w V and with w V o.
-  Eigen::Matrix<double, 6, 10> products = Eigen::Matrix<double, 6, 10>::Zero();
-  Eigen::Matrix<double, 3, 4> offsets = Eigen::Matrix<double, 3, 4>::Zero();
-  Eigen::Matrix<double, 10, 1> monomials;
-  for (const PointLinePair& pair : pairs)
+PointLineQuadraticForm::PointLineQuadraticForm(const std::vector<PointLinePair>& pairs, const PointLineSummary& summary)
+  : totalWeight_(summary.totalWeight)
+  , linesCentre_(pairs.front().origin_Lines)
+  , centroid_(summary.centroid_Points)
+{
+  sumProducts(pairs);
+  if (!summary.hasCommonOrigin)
   {
-    const Packed weighted = weightedProjector(pair);
-    const Eigen::Vector3d x = pair.point_Points - centroid_;
-    monomials << 1, x, x.x() * x, x.y() * x.y(), x.y() * x.z(), x.z() * x.z();
-    products.noalias() += weighted * monomials.transpose();
-    if (!hasCommonOrigin)
-    {
-      const Eigen::Vector3d origin = pair.origin_Lines - linesCentre_;
-      const Eigen::Vector3d off = apply(weighted, origin);
-      offsets.noalias() += off * monomials.head<4>().transpose();
-      constant_ += origin.dot(off);
-    }
+    sumOffsets(pairs);
   }
   Matrix39 moment;
   for (int a = 0; a < 3; ++a)
   {
-    moment.middleCols<3>(3 * a) = unpack(products.col(1 + a));
-    linear_.segment<3>(3 * a) = -offsets.col(1 + a);
+    moment.middleCols<3>(3 * a) = unpack(products_.col(1 + a));
     for (int b = a; b < 3; ++b)
     {
-      const int monomial = a == 0 ? 4 + b : a == 1 ? 6 + b : 9;  // xx xy xz yy yz zz
-      quadratic_.block<3, 3>(3 * a, 3 * b) = unpack(products.col(monomial));
+      quadratic_.block<3, 3>(3 * a, 3 * b) = unpack(products_.col(monomialOf(a, b)));
       quadratic_.block<3, 3>(3 * b, 3 * a) = quadratic_.block<3, 3>(3 * a, 3 * b);
     }
   }
-  eliminateTranslation(unpack(products.col(0)), moment);
+  eliminateTranslation(unpack(products_.col(0)), moment);
+}
+
+void PointLineQuadraticForm::sumProducts(const std::vector<PointLinePair>& pairs)
+{
+  // All that the cost holds of a point is its products (1, x, y, z, xx, xy, ...) with w V. Blocks of pairs become one product of
+  // matrices, which keeps the sums in registers.
+  constexpr int block = 4;
+  Eigen::Matrix<double, 6, block> projectors;
+  Eigen::Matrix<double, 10, block> monomials;
+  const std::size_t inBlocks = pairs.size() / block * block;
+  for (std::size_t first = 0; first < inBlocks; first += block)
+  {
+    for (int k = 0; k < block; ++k)
+    {
+      writeTerms(pairs[first + std::size_t(k)], centroid_, projectors.col(k).data(), monomials.col(k).data());
+    }
+    products_ += projectors.lazyProduct(monomials.transpose());
+  }
+  for (std::size_t i = inBlocks; i < pairs.size(); ++i)
+  {
+    writeTerms(pairs[i], centroid_, projectors.data(), monomials.data());
+    products_ += projectors.col(0).lazyProduct(monomials.col(0).transpose());
+  }
+}
+
+void PointLineQuadraticForm::sumOffsets(const std::vector<PointLinePair>& pairs)
+{
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  for (const PointLinePair& pair : pairs)
+  {
+    offset += apply(weightedProjector(pair), pair.origin_Lines - linesCentre_);
+  }
+  linesCentre_ += unpack(products_.col(0)).ldlt().solve(offset);
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (const PointLinePair& pair : pairs)
+  {
+    const Eigen::Vector3d x = pair.point_Points - centroid_, origin = pair.origin_Lines - linesCentre_;
+    const Eigen::Vector3d off = apply(weightedProjector(pair), origin);
+    moments += off * x.transpose();
+    constant_ += origin.dot(off);
+  }
+  linear_ = -vec(moments);
+}
+
+Eigen::Matrix<double, 6, 6> PointLineQuadraticForm::centredInformation(const Eigen::Matrix3d& rotation) const
+{
+  // -skew(R x) = -sum_a x_a skew(R e_a), so that the sums of x_a V and x_a x_b V are all that is needed.
+  Eigen::Matrix<double, 6, 6> information;
+  Eigen::Matrix3d turns = Eigen::Matrix3d::Zero(), mixed = Eigen::Matrix3d::Zero();
+  for (int a = 0; a < 3; ++a)
+  {
+    const Eigen::Matrix3d left = skew(rotation.col(a));
+    mixed += left * unpack(products_.col(1 + a));
+    for (int b = 0; b < 3; ++b)
+    {
+      const Eigen::Matrix3d half = left * unpack(products_.col(monomialOf(std::min(a, b), std::max(a, b))));
+      turns -= half * skew(rotation.col(b));
+    }
+  }
+  information << turns, mixed, mixed.transpose(), unpack(products_.col(0));
+  return information;
+}
+
+double PointLineQuadraticForm::spread() const
+{
+  // The trace of V is 2.
+  double sum = 0;
+  for (int a = 0; a < 3; ++a)
+  {
+    sum += unpack(products_.col(monomialOf(a, a))).trace();
+  }
+  return std::sqrt(std::max(0.0, sum / (2 * totalWeight_)));
 }
 
 void PointLineQuadraticForm::eliminateTranslation(const Eigen::Matrix3d& sum, const Matrix39& moment)

@@ -9,6 +9,17 @@
 namespace handeye
 {
 
+/// What one look at the pairs tells. Internal.
+struct PointLineSummary
+{
+  Eigen::Vector3d centroid_Points = Eigen::Vector3d::Zero();  ///< weighted
+  double totalWeight = 0;
+  bool hasCommonOrigin = true;
+};
+
+/// @throws std::invalid_argument naming the first pair that holds a number that is none
+PointLineSummary summarizePairs(const std::vector<PointLinePair>& pairs);
+
 /// The point-to-line cost with its translation eliminated: f(R) = r^T Q r + 2 q^T r + c, r = the columns of R, one below the other.
 ///
 /// Points are taken relative to their centroid and lines relative to the point nearest to all of them, which keeps Q well scaled.
@@ -19,7 +30,7 @@ public:
   using Vector9 = Eigen::Matrix<double, 9, 1>;
   using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
-  explicit PointLineQuadraticForm(const std::vector<PointLinePair>& pairs);
+  PointLineQuadraticForm(const std::vector<PointLinePair>& pairs, const PointLineSummary& summary);
 
   /// False where the lines are parallel, so that no translation can be computed.
   bool determinesTranslation() const { return determinesTranslation_; }
@@ -42,9 +53,22 @@ public:
   /// R^T R = I and R R^T = I is convex, and stays so when `gap` of its curvature is taken away. Says no more often than it must.
   bool isCertainlyGlobal(const Eigen::Matrix3d& minimum) const;
 
+  /// The weighted information of motions about the points' centroid, see informationMatrix(), and the points' spread about it, both
+  /// from the sums that the form is made of.
+  Eigen::Matrix<double, 6, 6> centredInformation(const Eigen::Matrix3d& rotation) const;
+  double spread() const;
+  const Eigen::Vector3d& centroid_Points() const { return centroid_; }
+
 private:
+  using Products = Eigen::Matrix<double, 6, 10>;
+
+  void sumProducts(const std::vector<PointLinePair>& pairs);
+  void sumOffsets(const std::vector<PointLinePair>& pairs);
   void eliminateTranslation(const Eigen::Matrix3d& sum, const Eigen::Matrix<double, 3, 9>& moment);
 
+  /// Sums of w V, packed as (xx, xy, xz, yy, yz, zz), times 1, x, y, z, xx, xy, xz, yy, yz, zz of the centred points.
+  Products products_ = Products::Zero();
+  double totalWeight_ = 0;
   Matrix9 quadratic_ = Matrix9::Zero();
   Vector9 linear_ = Vector9::Zero();
   double constant_ = 0;

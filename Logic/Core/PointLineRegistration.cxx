@@ -71,34 +71,23 @@ void reportFreedom(const Eigen::Matrix<double, 6, 1>& freedom, PointLineResult& 
 }
 
 /// Residuals, and what the data determine.
-void measure(const PointLinePairs& pairs, PointLineResult& result)
+void measure(const PointLinePairs& pairs, const PointLineQuadraticForm& form, PointLineResult& result)
 {
-  const double count = double(pairs.size());
-  Eigen::Vector3d centroid_Points = Eigen::Vector3d::Zero();
-  double squaredNorm = 0;
-  for (const PointLinePair& pair : pairs)
+  double squares = 0;
+  result.residualsMm.resize(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
   {
-    centroid_Points += pair.point_Points / count;
-    squaredNorm += pair.point_Points.squaredNorm() / count;
-  }
-  const Eigen::Matrix3d& rotation = result.pointsToLines.linear();
-  Matrix6 centred = Matrix6::Zero();
-  double spread = 0, squares = 0;
-  result.residualsMm.reserve(pairs.size());
-  for (const PointLinePair& pair : pairs)
-  {
-    const double square = offsetFromLine(pair, result.pointsToLines).squaredNorm();
-    result.residualsMm.push_back(std::sqrt(square));
+    const PointLinePair& pair = pairs[i];
+    const Eigen::Vector3d offset = result.pointsToLines * pair.point_Points - pair.origin_Lines;
+    const double square = offset.cross(pair.direction_Lines).squaredNorm() / pair.direction_Lines.squaredNorm();
+    result.residualsMm[i] = std::sqrt(square);
     squares += square;
-    const Eigen::Vector3d arm = rotation * (pair.point_Points - centroid_Points);
-    spread += arm.squaredNorm() / count;
-    addInformation(pair, arm, centred);
   }
-  centred.bottomLeftCorner<3, 3>() = centred.topRightCorner<3, 3>().transpose();
-  result.rmsMm = std::sqrt(squares / count);
-  result.information = shifted(centred, rotation * centroid_Points);
+  result.rmsMm = std::sqrt(squares / double(pairs.size()));
+  Matrix6 centred = form.centredInformation(result.pointsToLines.linear());
+  result.information = shifted(centred, result.pointsToLines.linear() * form.centroid_Points());
   // Turn about the centroid, by the spread as the unit of length, so that the six numbers are comparable.
-  const double length = std::max({ std::sqrt(spread), 1e-9 * std::sqrt(squaredNorm), 1e-150 });
+  const double length = std::max({ form.spread(), 1e-9 * form.centroid_Points().norm(), 1e-150 });
   centred.topRows<3>() /= length;
   centred.leftCols<3>() /= length;
   const Eigen::SelfAdjointEigenSolver<Matrix6> spectrum(centred, Eigen::EigenvaluesOnly);
@@ -108,20 +97,6 @@ void measure(const PointLinePairs& pairs, PointLineResult& result)
   if (!(result.conditionNumber < WorstCondition) && (result.status == Status::Ok || result.status == Status::Ambiguous))
   {
     reportFreedom(Eigen::SelfAdjointEigenSolver<Matrix6>(centred).eigenvectors().col(0), result);
-  }
-}
-
-void checkPairs(const PointLinePairs& pairs)
-{
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-  {
-    const PointLinePair& pair = pairs[i];
-    const bool finite = pair.point_Points.allFinite() && pair.origin_Lines.allFinite() && pair.direction_Lines.allFinite();
-    if (!finite || !(pair.direction_Lines.squaredNorm() > 0) || !(pair.weight > 0) || !std::isfinite(pair.weight))
-    {
-      throw std::invalid_argument("point and line " + std::to_string(i + 1) +
-        ": finite numbers, a direction that is not zero and a positive weight are expected");
-    }
   }
 }
 
@@ -151,13 +126,14 @@ void checkNoise(const PointLinePairs& pairs, const std::vector<PointLineNoise>& 
   }
 }
 
-void solve(const PointLinePairs& pairs, const PointLineOptions& options, PointLineResult& result)
+void solve(
+  const PointLinePairs& pairs, const PointLineQuadraticForm& form, const PointLineOptions& options, PointLineResult& result)
 {
   switch (options.method)
   {
     case Method::Global:
     case Method::MaximumLikelihood:
-      return solveGlobal(pairs, options, result);
+      return solveGlobal(pairs, form, options, result);
     case Method::Procrustes:
       return solveProcrustes(pairs, options, result);
     case Method::OrthogonalIteration:
@@ -194,7 +170,7 @@ PointLineResult registerPointsToLines(
   const PointLinePairs& pairs, const std::vector<PointLineNoise>& noise, const PointLineOptions& options)
 {
   options.check();
-  checkPairs(pairs);
+  const PointLineSummary summary = summarizePairs(pairs);
   checkNoise(pairs, noise);
   PointLineResult result;
   if (pairs.size() < MinimumPairs)
@@ -202,7 +178,7 @@ PointLineResult registerPointsToLines(
     if (pairs.size() + 1 == MinimumPairs)
     {
       PointLineResult candidates;
-      solveGlobal(pairs, options, candidates);
+      solveGlobal(pairs, PointLineQuadraticForm(pairs, summary), options, candidates);
       result.solutions = candidates.status == Status::Ok ? std::vector<Eigen::Isometry3d>{ candidates.pointsToLines }
                                                          : std::move(candidates.solutions);
     }
@@ -210,17 +186,17 @@ PointLineResult registerPointsToLines(
       "only " + std::to_string(pairs.size()) + " points with a line, at least " + std::to_string(MinimumPairs) + " are needed";
     return result;
   }
-  solve(pairs, options, result);
+  const PointLineQuadraticForm form(pairs, summary);
+  solve(pairs, form, options, result);
   if (result.status == Status::NotObservable || result.status == Status::NotApplicable)
   {
     return result;
   }
-  measure(pairs, result);
+  measure(pairs, form, result);
   if (result.isUsable() && options.method == Method::MaximumLikelihood)
   {
     solveMaximumLikelihood(pairs, noise, options, result);
-    result.residualsMm.clear();
-    measure(pairs, result);
+    measure(pairs, form, result);
   }
   if (result.isUsable())
   {
