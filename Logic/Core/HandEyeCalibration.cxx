@@ -48,6 +48,8 @@ Status translate(PointLineResult::Status status)
       return Status::Mirrored;
     case PointLineResult::Status::Ambiguous:
       return Status::Ambiguous;
+    case PointLineResult::Status::PoorFit:
+      return Status::PoorFit;
     case PointLineResult::Status::NotApplicable:
       return Status::NotApplicable;
   }

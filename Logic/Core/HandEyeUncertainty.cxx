@@ -19,11 +19,13 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// Tips that are closer than this are one place of the ball.
 constexpr double SamePlaceMm = 2;
-/// From the first of these multiples of the expected scatter on, a misfit is taken to be systematic; from the second on wholly.
+/// From the first of these multiples of the expected scatter on (more where few samples make chance larger), a misfit is taken to be
+/// systematic; this much further on wholly.
 constexpr double RandomMisfit = 1.25;
-constexpr double SystematicMisfit = 2;
-/// One in ten captures scatters more than expected by this many standard deviations of the scatter.
-constexpr double OneInTen = 1.28;
+constexpr double ToSystematicMisfit = 0.75;
+/// So many standard deviations above the expected scatter one capture in a hundred and one in a thousand scatter by chance.
+constexpr double OneInHundred = 2.33;
+constexpr double OneInThousand = 3.09;
 
 /// What the solution's normal equations inherit from errors that several samples share.
 struct Shared
@@ -140,8 +142,10 @@ double estimateCovariance(
   }
   const double freedoms = std::max(1.0, 2.0 * double(looks.size()) - 6);
   const double misfit = std::sqrt(squares / freedoms);
-  const double systematic = std::clamp((misfit - RandomMisfit) / (SystematicMisfit - RandomMisfit), 0.0, 1.0);
-  const bool isClearlyMore = misfit > 1 + OneInTen / std::sqrt(2 * freedoms);
+  const double deviation = 1 / std::sqrt(2 * freedoms);
+  const double random = std::max(RandomMisfit, 1 + OneInThousand * deviation);
+  const double systematic = std::clamp((misfit - random) / ToSystematicMisfit, 0.0, 1.0);
+  const bool isClearlyMore = misfit > 1 + OneInHundred * deviation;
   result.placeCount = int(shared.byTracking.size());
   const double varianceFactor = (isClearlyMore ? misfit * misfit : 1) * (1 + systematic * (result.placeCount - 1));
   result.covariance = varianceFactor * sandwich(normal, shared, options);

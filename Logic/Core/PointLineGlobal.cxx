@@ -17,6 +17,9 @@ namespace
 using Status = PointLineResult::Status;
 
 constexpr std::size_t EnoughPairs = 4;
+/// With this many pairs, noise does not make a solution behind the camera fit better by this ratio of the costs.
+constexpr std::size_t EnoughToTell = 8;
+constexpr double MirroredRatio = 100;
 /// Two minima closer than this (rad) are one.
 constexpr double SameRotation = 1e-4;
 
@@ -91,6 +94,12 @@ void choose(const PointLinePairs& pairs, const PointLineQuadraticForm& form, con
     {
       result.status = Status::Mirrored;
       result.message = "no solution has the points in front of the camera: points and rays do not belong together";
+      return;
+    }
+    if (pairs.size() >= EnoughToTell && chosen->cost > MirroredRatio * minima.front().cost + 1e4 * roundingCost(pairs))
+    {
+      result.status = Status::Mirrored;
+      result.message = "the rays point the wrong way: with the points behind the camera they fit far better than in front of it";
       return;
     }
   }

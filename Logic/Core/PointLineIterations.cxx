@@ -148,7 +148,8 @@ void solveProcrustesPnP(const PointLinePairs& pairs, const PointLineOptions& opt
   // The paper's P (rays), Z (depths), S (points) and c (centre in the points' frame), a column instead of a row each.
   const Lines lines = toMatrices(pairs);
   const Eigen::Matrix3Xd &P = lines.directions, &S = lines.points;
-  Eigen::RowVectorXd Z = Eigen::RowVectorXd::Zero(P.cols());
+  // All points at the same depth to begin with.
+  Eigen::RowVectorXd Z = Eigen::RowVectorXd::Ones(P.cols());
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   double lastRms = std::numeric_limits<double>::infinity();
   result.status = Status::NotConverged;

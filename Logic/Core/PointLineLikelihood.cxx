@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "NumberWords.h"
 #include "PointLineMethods.h"
 #include "RigidTransform.h"
 
@@ -212,6 +213,14 @@ void solveMaximumLikelihood(
   result.covariance = (isExact ? 0 : 1) * aboutOrigin * aboutCentre * aboutOrigin.transpose();
   result.sigmaMm = isExact ? 0 : std::sqrt(sigma.squareMm);
   result.sigmaRad = isExact ? 0 : std::sqrt(sigma.squareRad);
+  const double freedoms = std::max(1.0, 2.0 * double(pairs.size()) - 6);
+  const double misfit = isExact ? 0 : std::sqrt(likelihood.squares(sigma, sigma) / freedoms);
+  if (isGiven && options.maximumMisfit > 0 && misfit > options.maximumMisfit)
+  {
+    result.status = PointLineResult::Status::PoorFit;
+    result.message = "the residuals are " + significantDigits(misfit, 2) +
+      " times what the given noise explains: some points do not belong to their lines, or the noise is larger";
+  }
   if (options.linesAreRays && !areMostInFront(pairs, result.pointsToLines))
   {
     result.status = PointLineResult::Status::Mirrored;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointLineRegistration.h"
 
+#include "NumberWords.h"
 #include "PointLineMethods.h"
 #include "RigidTransform.h"
 
@@ -155,7 +156,8 @@ void PointLineOptions::check() const
   {
     throw std::invalid_argument("point-to-line options: a positive tolerance and at least one iteration are expected");
   }
-  if (!(sigmaMm >= 0) || !(sigmaRad >= 0) || !std::isfinite(sigmaMm + sigmaRad) || !(robustFactor > 1))
+  if (!(sigmaMm >= 0) || !(sigmaRad >= 0) || !std::isfinite(sigmaMm + sigmaRad) || !(robustFactor > 1) || !(maximumMisfit >= 0) ||
+    !(maximumRelativeRms > 0))
   {
     throw std::invalid_argument("point-to-line options: noise of at least 0 and a robust factor above 1 are expected");
   }
@@ -197,6 +199,12 @@ PointLineResult registerPointsToLines(
   {
     solveMaximumLikelihood(pairs, noise, options, result);
     measure(pairs, form, result);
+  }
+  if (result.isUsable() && result.rmsMm > options.maximumRelativeRms * form.spread() && result.rmsMm > 0)
+  {
+    result.status = Status::PoorFit;
+    result.message = "points and lines do not belong together: the best solution misses the lines by " +
+      significantDigits(result.rmsMm, 3) + " mm (RMS), the points' spread being " + significantDigits(form.spread(), 3) + " mm";
   }
   if (result.isUsable())
   {
@@ -283,6 +291,8 @@ std::string toString(Status status)
       return "mirrored";
     case Status::Ambiguous:
       return "ambiguous";
+    case Status::PoorFit:
+      return "poor_fit";
     case Status::NotApplicable:
       return "not_applicable";
   }

@@ -56,6 +56,10 @@ struct PointLineOptions
   double sigmaRad = 0;
   /// Of `MaximumLikelihood`: a residual above this multiple of its standard deviation counts linearly instead of squared (Huber).
   double robustFactor = 4;
+  /// Of `MaximumLikelihood` with given noise: a scatter above this multiple of it is a poor fit; 0: not judged.
+  double maximumMisfit = 0;
+  /// A root mean square distance above this share of the points' spread is a poor fit, whatever the noise.
+  double maximumRelativeRms = 0.25;
 
   /// @throws std::invalid_argument with a sentence where a number makes no sense
   void check() const;
@@ -71,6 +75,7 @@ struct PointLineResult
     NotConverged,   ///< the iteration reached its cap
     Mirrored,       ///< rays: every minimum found has most points behind the rays' origins
     Ambiguous,      ///< two different minima with practically the same cost and all points in front: see `solutions`
+    PoorFit,        ///< the best solution does not bring the points onto the lines
     NotApplicable   ///< the method needs rays of one centre within a half space
   };
 

@@ -110,6 +110,32 @@ Eigen::Vector3d readStylusTip(const Path& path)
   return readVector(path, readResult(path, "tip_Stylus_Mm"), "tip_Stylus_Mm");
 }
 
+Eigen::Matrix3d readStylusTipCovariance(const Path& path)
+{
+  const char* key = "tipCovariance_Mm2";
+  const json value = readResult(path, "tip_Stylus_Mm").value(key, json());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  if (value.is_null())
+  {
+    return covariance;
+  }
+  bool isMatrix = value.is_array() && value.size() == 3;
+  for (std::size_t row = 0; isMatrix && row < 3; ++row)
+  {
+    isMatrix = value[row].is_array() && value[row].size() == 3;
+    for (std::size_t column = 0; isMatrix && column < 3; ++column)
+    {
+      covariance(Eigen::Index(row), Eigen::Index(column)) = readNumber(path, value[row][column], key);
+    }
+  }
+  const bool isSymmetric = (covariance - covariance.transpose()).norm() <= 1e-6 * covariance.norm();
+  if (!isMatrix || !isSymmetric || covariance.diagonal().minCoeff() < 0)
+  {
+    throw io::FileError(path, std::string("\"") + key + "\": a symmetric matrix, three rows of three numbers, is expected");
+  }
+  return covariance;
+}
+
 StoredCalibration readCalibration(const Path& path)
 {
   const json object = readResult(path, "markerToCamera");

@@ -30,10 +30,17 @@ int runRegister(const RegisterArguments& arguments)
   {
     pairs.push_back({ row.point, row.lineOrigin, row.lineDirection, 1 });
   }
-  const PointLineResult registration = registerPointsToLines(pairs, arguments.options);
+  PointLineOptions options = arguments.options;
+  options.maximumMisfit = 4;
+  const PointLineResult registration = registerPointsToLines(pairs, options);
   if (registration.isUsable())
   {
     arguments.output.say(matrixLines(registration.pointsToLines.matrix(), "", 12));
+    if (arguments.options.method == PointLineOptions::Method::MaximumLikelihood)
+    {
+      std::cerr << format("noise %.3g mm, %.3g rad ", registration.sigmaMm, registration.sigmaRad)
+                << (arguments.options.sigmaMm + arguments.options.sigmaRad > 0 ? "(given)" : "(estimated)") << "\n";
+    }
     std::cerr << format("residual %.6g mm RMS over %.0f points\n", registration.rmsMm, double(pairs.size()));
   }
   return arguments.output.finish(registrationJson(registration));
@@ -51,6 +58,9 @@ void addRegisterCommand(CLI::App& app, int& exitCode)
     ->type_name("POINTS-AND-LINES.txt");
   addSolverOption(*command, arguments->options.method);
   command->add_flag("--rays", arguments->options.linesAreRays, "The lines are rays: points must lie on the side they point to");
+  addSigmaOption(*command, "--sigma-mm", arguments->options.sigmaMm,
+    "ml: noise of the points, mm per axis; without any noise given it is estimated from the residuals");
+  addSigmaOption(*command, "--sigma-rad", arguments->options.sigmaRad, "ml: noise of the rays' directions, rad per axis");
   arguments->output.addTo(*command);
   command->callback([arguments, &exitCode] { exitCode = runRegister(*arguments); });
 }
