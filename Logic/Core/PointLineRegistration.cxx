@@ -233,9 +233,13 @@ Eigen::Vector3d offsetFromLine(const PointLinePair& pair, const Eigen::Isometry3
 
 bool areMostInFront(const PointLinePairs& pairs, const Eigen::Isometry3d& pointsToLines)
 {
-  const auto inFront = std::count_if(pairs.begin(), pairs.end(),
-    [&](const PointLinePair& pair) { return pair.direction_Lines.dot(pointsToLines * pair.point_Points - pair.origin_Lines) > 0; });
-  return 2 * std::size_t(inFront) > pairs.size();
+  std::size_t inFront = 0;
+  for (std::size_t i = 0; i < pairs.size() && 2 * inFront <= pairs.size(); ++i)
+  {
+    const PointLinePair& pair = pairs[i];
+    inFront += pair.direction_Lines.dot(pointsToLines * pair.point_Points - pair.origin_Lines) > 0 ? 1 : 0;
+  }
+  return 2 * inFront > pairs.size();
 }
 
 bool haveOneCentre(const PointLinePairs& pairs, const PointLineOptions& options, PointLineResult& result)

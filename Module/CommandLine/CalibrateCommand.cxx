@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 
 namespace handeye::cli
 {
@@ -112,6 +113,10 @@ void sayResult(const CalibrationStepResult& step, const CommandOutput& output)
 
 int runCalibrate(CalibrateArguments& arguments)
 {
+  if (!arguments.depthsMm.empty() && !(arguments.depthsMm[0] < arguments.depthsMm[1]))
+  {
+    throw std::invalid_argument("--depth-range: the nearest depth first and a greater one after it are expected");
+  }
   arguments.calibration.rejectOutliers = !arguments.keepAll;
   arguments.calibration.tipCovariance_Stylus = readStylusTipCovariance(arguments.stylus);
   const Eigen::Vector3d tip_Stylus = readStylusTip(arguments.stylus);
