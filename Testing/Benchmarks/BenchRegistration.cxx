@@ -101,7 +101,15 @@ void likelihoodAgainstIterative(benchmark::State& state)
 
 }  // namespace
 
-BENCHMARK(globalAgainstSqpnp)->Arg(6)->Arg(15)->Arg(100)->Arg(1000)->Arg(10000)->UseManualTime()->Iterations(100)->Unit(benchmark::kMicrosecond);
+BENCHMARK(globalAgainstSqpnp)
+  ->Arg(6)
+  ->Arg(15)
+  ->Arg(100)
+  ->Arg(1000)
+  ->Arg(10000)
+  ->UseManualTime()
+  ->Iterations(100)
+  ->Unit(benchmark::kMicrosecond);
 BENCHMARK(globalAgainstProcrustes)->Arg(15)->UseManualTime()->Iterations(20)->Unit(benchmark::kMicrosecond);
 BENCHMARK(globalAgainstEpnp)->Arg(15)->UseManualTime()->Iterations(20)->Unit(benchmark::kMicrosecond);
 BENCHMARK(globalAgainstIterative)->Arg(15)->UseManualTime()->Iterations(20)->Unit(benchmark::kMicrosecond);

@@ -353,6 +353,7 @@ int main(int argc, char** argv)
     std::fprintf(stderr, "usage: evaluate_registration minima|limit|prediction|guidance|outliers [RUNS]\n");
     return 2;
   }
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
   table->second.first(runs);
   return 0;
 }
