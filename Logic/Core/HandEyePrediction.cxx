@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -107,13 +108,13 @@ std::string describeWeakestFreedom(const Covariance6& covariance, double depthMm
   const Covariance6 scaled = unit.asDiagonal() * covariance * unit.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Covariance6> spectrum(scaled);
   const Eigen::Matrix<double, 6, 1> freedom = spectrum.eigenvectors().col(5).cwiseAbs();
+  constexpr int mostNamed = 3;
+  std::array<int, 6> order = { 0, 1, 2, 3, 4, 5 };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return freedom(a) > freedom(b); });
   std::string words;
-  for (int i = 0; i < 6; ++i)
+  for (int k = 0; k < mostNamed && freedom(order[std::size_t(k)]) > 0.5 * freedom.maxCoeff(); ++k)
   {
-    if (freedom(i) > 0.5 * freedom.maxCoeff())
-    {
-      words += (words.empty() ? "" : " together with ") + std::string(names[i]);
-    }
+    words += (words.empty() ? "" : " together with ") + std::string(names[order[std::size_t(k)]]);
   }
   return words + ", " + fixedDigits(std::sqrt(std::max(0.0, spectrum.eigenvalues()(5))), 1) + " mm at " + fixedDigits(depthMm, 0) +
     " mm";

@@ -335,6 +335,24 @@ TEST(PointLineLikelihood, Covariance_IsHonest)
   EXPECT_NEAR(chiSquares, 6, 1);
 }
 
+TEST(HandEyeMethods, MethodsOfOneCamera_RefuseAStereoRig)
+{
+  Random random(13);
+  const std::vector<Eye> eyes = { { webcam() }, { webcam(), makeRigid({ 0, 0.02, 0 }, { -60, 0, 0 }) } };
+  std::vector<HandEyeSample> samples =
+    simulateSamples(webcam(), typicalMarkerToCamera(), 10, { 150, 700, 0.08, 0.35, 0.25 }, random);
+  for (std::size_t i = 5; i < samples.size(); ++i)
+  {
+    const Eigen::Vector3d ball_Camera = typicalMarkerToCamera() * samples[i].tip_Marker;
+    samples[i] = makeSample(int(i), ball_Camera, eyes[1], 1, samples[i].tip_Marker, 0.25, random);
+  }
+  HandEyeCalibrationOptions options;
+  options.method = PointLineOptions::Method::Sqpnp;
+  const HandEyeCalibrationResult result = calibrateHandEye(samples, eyes, options);
+  EXPECT_EQ(result.status, HandEyeCalibrationResult::Status::NotApplicable) << toString(result.status) << result.message;
+  EXPECT_TRUE(says(result.message, { "sqpnp", "one centre" }));
+}
+
 TEST(PointLineInput, CovariancesThatAreNone_ThrowASentenceWithTheRow)
 {
   Random random(17);
