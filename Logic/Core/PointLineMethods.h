@@ -25,6 +25,9 @@ void solveByOpenCV(const PointLinePairs& pairs, const PointLineOptions& options,
 void solveMaximumLikelihood(
   const PointLinePairs& pairs, const std::vector<PointLineNoise>& noise, const PointLineOptions& options, PointLineResult& result);
 
+/// The pairs that agree with each other, ascending; all of them where leaving out the others would not lower the scatter much.
+std::vector<int> findAgreeingPairs(const PointLinePairs& pairs, const PointLineOptions& options);
+
 /// The moved point relative to its line, across the line.
 Eigen::Vector3d offsetFromLine(const PointLinePair& pair, const Eigen::Isometry3d& pointsToLines);
 

@@ -148,6 +148,40 @@ void solve(
   }
 }
 
+PointLineResult registerWhatAgrees(
+  const PointLinePairs& pairs, const std::vector<PointLineNoise>& noise, const PointLineOptions& options)
+{
+  const std::vector<int> kept = findAgreeingPairs(pairs, options);
+  PointLineOptions plain = options;
+  plain.rejectOutliers = false;
+  PointLinePairs subset;
+  std::vector<PointLineNoise> subsetNoise;
+  for (int i : kept)
+  {
+    subset.push_back(pairs[std::size_t(i)]);
+    if (!noise.empty())
+    {
+      subsetNoise.push_back(noise[std::size_t(i)]);
+    }
+  }
+  PointLineResult result = registerPointsToLines(subset, subsetNoise, plain);
+  result.residualsMm.clear();
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    result.residualsMm.push_back(offsetFromLine(pairs[i], result.pointsToLines).norm());
+    if (!std::binary_search(kept.begin(), kept.end(), int(i)))
+    {
+      result.rejected.push_back(int(i));
+    }
+  }
+  if (!result.rejected.empty() && result.isUsable())
+  {
+    result.message = "registered " + std::to_string(kept.size()) + " of " + std::to_string(pairs.size()) +
+      " points, the others disagree with them";
+  }
+  return result;
+}
+
 }  // namespace
 
 void PointLineOptions::check() const
@@ -187,6 +221,10 @@ PointLineResult registerPointsToLines(
     result.message =
       "only " + std::to_string(pairs.size()) + " points with a line, at least " + std::to_string(MinimumPairs) + " are needed";
     return result;
+  }
+  if (options.rejectOutliers)
+  {
+    return registerWhatAgrees(pairs, noise, options);
   }
   const PointLineQuadraticForm form(pairs, summary);
   solve(pairs, form, options, result);

@@ -61,6 +61,10 @@ struct PointLineOptions
   /// A root mean square distance above this share of the points' spread is a poor fit, whatever the noise.
   double maximumRelativeRms = 0.25;
 
+  /// Look for pairs that disagree with the rest, from 8 pairs on, and leave them out (sets of four, least median of distances, then
+  /// 4.5 times the scatter of those that agree; only where that lowers the scatter to less than half).
+  bool rejectOutliers = false;
+
   /// @throws std::invalid_argument with a sentence where a number makes no sense
   void check() const;
 };
@@ -86,8 +90,9 @@ struct PointLineResult
   /// Where more than one minimum fits practically as well as the best one: all of those, the best first. Otherwise empty.
   std::vector<Eigen::Isometry3d> solutions;
   std::vector<double> residualsMm;  ///< distance of each moved point to its line
-  double rmsMm = 0;
-  int iterations = 0;   ///< of the iterative methods; of `Global` the Newton steps of all starts together
+  std::vector<int> rejected;        ///< indices of the pairs that were left out, with `rejectOutliers`
+  double rmsMm = 0;                 ///< of the pairs that were not left out
+  int iterations = 0;               ///< of the iterative methods; of `Global` the Newton steps of all starts together
   int minimaCount = 0;  ///< different local minima that `Global` looked at; 1 where the first one is proven to be the global one
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();  ///< see informationMatrix()
   double conditionNumber = 0;  ///< of the information matrix about the points' centroid, rotations measured at their spread

@@ -293,6 +293,7 @@ json registrationJson(const PointLineResult& registration)
     object["pointsToLines"] = toJson(registration.pointsToLines);
     object["rmsMm"] = registration.rmsMm;
     object["residualsMm"] = registration.residualsMm;
+    object["rejected"] = registration.rejected;
     object["iterations"] = registration.iterations;
     object["conditionNumber"] = registration.conditionNumber;
     object["rank"] = registration.rank;

@@ -265,6 +265,45 @@ TEST(PointLineGlobal, PointsThatDoNotBelongToTheirLines_AreAPoorFit)
   EXPECT_TRUE(says(result.message, { "do not belong together", "RMS" }));
 }
 
+TEST(PointLineConsensus, ThirtyPercentWrongLines_AreNamed)
+{
+  Random random(18);
+  int named = 0;
+  for (int run = 0; run < 12; ++run)
+  {
+    const Eigen::Isometry3d truth = random.rigid(100);
+    Pairs pairs = run % 2 ? skewPairs(truth, 15, 0.4, random) : viewPairs(truth, 15, {}, 0.4, 0.0005, random);
+    for (const std::size_t wrong : { 1, 4, 6, 11 })
+    {
+      pairs[wrong].point_Points += random.uniform(40, 90) * random.direction();
+    }
+    pairs[1].point_Points += Eigen::Vector3d(100, 100, 0);
+    PointLineOptions options = pointLineOptions(Method::MaximumLikelihood, run % 2 == 0);
+    options.rejectOutliers = true;
+    const PointLineResult result = registerPointsToLines(pairs, options);
+    ASSERT_TRUE(result.isUsable()) << result.message;
+    // An error along the line is none.
+    EXPECT_TRUE(rigid3dNear(result.pointsToLines, truth, 0.01, 3)) << "run " << run;
+    named += result.rejected == std::vector<int>({ 1, 4, 6, 11 }) ? 1 : 0;
+    EXPECT_EQ(result.residualsMm.size(), 15U);
+  }
+  EXPECT_GE(named, 10);
+}
+
+TEST(PointLineConsensus, CleanPairs_AreAllKept)
+{
+  Random random(19);
+  for (int run = 0; run < 40; ++run)
+  {
+    PointLineOptions options = pointLineOptions(Method::MaximumLikelihood, true);
+    options.rejectOutliers = true;
+    const Pairs pairs = viewPairs(random.rigid(100), random.integer(5, 16), {}, run % 4 ? 0.4 : 0, run % 4 ? 0.0005 : 0, random);
+    const PointLineResult result = registerPointsToLines(pairs, options);
+    ASSERT_TRUE(result.isUsable()) << result.message;
+    EXPECT_TRUE(result.rejected.empty()) << "run " << run;
+  }
+}
+
 TEST(PointLineLikelihood, GivenNoise_IsJudged)
 {
   Random random(13);
