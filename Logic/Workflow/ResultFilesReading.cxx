@@ -5,6 +5,8 @@
 #include "ResultFiles.h"
 #include "RigidTransform.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <cmath>
 #include <fstream>
 #include <optional>
@@ -129,9 +131,10 @@ Eigen::Matrix3d readStylusTipCovariance(const Path& path)
     }
   }
   const bool isSymmetric = (covariance - covariance.transpose()).norm() <= 1e-6 * covariance.norm();
-  if (!isMatrix || !isSymmetric || covariance.diagonal().minCoeff() < 0)
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spectrum(covariance, Eigen::EigenvaluesOnly);
+  if (!isMatrix || !isSymmetric || spectrum.eigenvalues()(0) < -1e-9 * covariance.norm())
   {
-    throw io::FileError(path, std::string("\"") + key + "\": a symmetric matrix, three rows of three numbers, is expected");
+    throw io::FileError(path, std::string("\"") + key + "\": a covariance, three rows of three numbers, is expected");
   }
   return covariance;
 }
