@@ -43,7 +43,8 @@ struct HandEyeCalibrationOptions
   /// error; sets the samples' weights.
   double trackingSigmaMm = 0.35;
   double segmentationSigmaPx = 0.25;
-  /// Of `MaximumLikelihood`: the two sigmas (and those of the samples) are shapes only, their sizes are estimated from the residuals.
+  /// Of `MaximumLikelihood`: the two sigmas (and those of the samples) are shapes only, their sizes are estimated from the
+  /// residuals.
   bool estimateNoise = false;
   /// Of the stylus' tip (mm^2, from the pivot calibration): an error that all samples share. Zero where it is not known.
   Eigen::Matrix3d tipCovariance_Stylus = Eigen::Matrix3d::Zero();
@@ -71,8 +72,8 @@ struct HandEyeCalibrationOptions
   void check() const;
 };
 
-/// How far a point that the calibration maps may be from where it is seen (px, one standard deviation) and from where it is (mm, the
-/// target registration error), as the covariance predicts it.
+/// How far a point that the calibration maps may be from where it is seen (px, one standard deviation) and from where it is (mm,
+/// the target registration error), as the covariance predicts it.
 struct PredictedError
 {
   double meanPx = 0;
@@ -143,7 +144,8 @@ struct HandEyeCalibrationResult
 /// Samples that disagree are found by consensus: each set of four (a few hundred of them if there are more) is registered, and the
 /// one that most of the others agree with decides who stays. The rest is solved by the chosen method. `MaximumLikelihood` weights
 /// each residual by the inverse of its covariance  sigma_px^2 I + sigma_mm^2 J J^T, J the projection's derivative by the point: the
-/// tracker acts in mm and the segmentation in px. `Global` takes 1 / (sigma_mm^2 + (sigma_px distance / f)^2), the others no weights.
+/// tracker acts in mm and the segmentation in px. `Global` takes 1 / (sigma_mm^2 + (sigma_px distance / f)^2), the others no
+/// weights.
 ///
 /// The covariance is that of the method's own weights under this noise (a sandwich): samples of one place share the tracker's
 /// error, also between two eyes, and repeated ones of one eye the segmentation's; an error of the tip turns with the stylus.

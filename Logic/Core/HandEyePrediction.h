@@ -13,9 +13,9 @@ namespace handeye
 
 /// What the covariance of a hand-eye calibration says of the points that are mapped with it.
 ///
-/// A motion (w, v) from the left moves p_Camera by  w x p_Camera + v = motionJacobian(p_Camera) * (w, v); a covariance C of (rotation
-/// vector rad, translation mm) therefore gives p_Camera the covariance J C J^T. Errors are root mean squares over all directions, one
-/// number for the 3 (mm) or 2 (px) axes together. All functions are thread-safe and throw nothing.
+/// A motion (w, v) from the left moves p_Camera by  w x p_Camera + v = motionJacobian(p_Camera) * (w, v); a covariance C of
+/// (rotation vector rad, translation mm) therefore gives p_Camera the covariance J C J^T. Errors are root mean squares over all
+/// directions, one number for the 3 (mm) or 2 (px) axes together. All functions are thread-safe and throw nothing.
 /// Reference: Ma, Chen and Peters, "On the accuracy of hand-eye calibration with a target registration error model", Int J CARS
 /// 11:889 (2016): the first-order propagation.
 

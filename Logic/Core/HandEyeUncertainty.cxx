@@ -19,8 +19,8 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// Tips that are closer than this are one place of the ball.
 constexpr double SamePlaceMm = 2;
-/// From the first of these multiples of the expected scatter on (more where few samples make chance larger), a misfit is taken to be
-/// systematic; this much further on wholly.
+/// From the first of these multiples of the expected scatter on (more where few samples make chance larger), a misfit is taken to
+/// be systematic; this much further on wholly.
 constexpr double RandomMisfit = 1.25;
 constexpr double ToSystematicMisfit = 0.75;
 /// So many standard deviations above the expected scatter one capture in a hundred and one in a thousand scatter by chance.
