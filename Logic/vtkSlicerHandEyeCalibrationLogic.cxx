@@ -219,8 +219,8 @@ vtkSlicerHandEyeCalibrationLogic::StepEnd vtkSlicerHandEyeCalibrationLogic::Inte
   EvaluatedCapture capture, SolverMethods method)
 {
   handeye::HandEyeCalibrationOptions options;
-  options.method =
-    method == ProcrustesSolver ? handeye::PointLineOptions::Method::Procrustes : handeye::PointLineOptions::Method::Global;
+  options.method = method == ProcrustesSolver ? handeye::PointLineOptions::Method::Procrustes
+                                              : handeye::PointLineOptions::Method::MaximumLikelihood;
   handeye::CalibrationStepResult result = handeye::calibrateCapture(withoutExcluded(capture.eye, capture.excluded), options);
   result.tip_Stylus = capture.tip_Stylus;
   result.ballRadiusMm = capture.ballRadiusMm;

@@ -80,7 +80,8 @@ public:
   vtkSetEnumMacro(SegmentationMethod, SegmentationMethods);
   vtkGetEnumMacro(SegmentationMethod, SegmentationMethods);
 
-  /// How points and rays are registered: see PointLineOptions.
+  /// How points and rays are registered: to the global minimum and on to the most likely solution, or by the paper's iteration; see
+  /// PointLineOptions.
   enum SolverMethods
   {
     GlobalSolver,

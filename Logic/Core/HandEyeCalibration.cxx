@@ -3,7 +3,9 @@
 #include "HandEyeCalibration.h"
 
 #include "HandEyeConsensus.h"
+#include "HandEyePrediction.h"
 #include "HandEyeResiduals.h"
+#include "HandEyeTip.h"
 #include "HandEyeUncertainty.h"
 #include "NumberWords.h"
 #include "Statistics.h"
@@ -25,6 +27,10 @@ using Samples = HandEyeSamples;
 using Status = HandEyeCalibrationResult::Status;
 
 constexpr int WeightRounds = 4;
+/// A predicted error (px) from which on a calibration is poor.
+constexpr double PoorPx = 3;
+/// Balls within this share of the image's width and of its height are all in one spot.
+constexpr double CrampedShare = 0.25;
 
 Status translate(PointLineResult::Status status)
 {
@@ -42,6 +48,10 @@ Status translate(PointLineResult::Status status)
       return Status::Mirrored;
     case PointLineResult::Status::Ambiguous:
       return Status::Ambiguous;
+    case PointLineResult::Status::PoorFit:
+      return Status::PoorFit;
+    case PointLineResult::Status::NotApplicable:
+      return Status::NotApplicable;
   }
   return Status::NotObservable;
 }
@@ -58,6 +68,38 @@ double apparentScale(const Samples& samples, const Eyes& eyes, const HandEyeCali
     }
   }
   return ratios.empty() ? 1 : median(ratios);
+}
+
+/// Where the used balls are, if they are all in one spot of each eye's image: ", all balls being in the upper left of the image".
+std::string crampedSpot(const Samples& samples, const Eyes& eyes, const HandEyeCalibrationResult& result)
+{
+  std::string where;
+  for (std::size_t eye = 0; eye < eyes.size(); ++eye)
+  {
+    const CameraModel& camera = eyes[eye].camera;
+    Eigen::AlignedBox2d box;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+    {
+      if (result.samples[i].used && samples[i].eye == int(eye))
+      {
+        box.extend(samples[i].ball_Image);
+      }
+    }
+    const Eigen::Vector2d image(
+      camera.hasImageSize() ? camera.width() : 2 * camera.cx() + 1, camera.hasImageSize() ? camera.height() : 2 * camera.cy() + 1);
+    if (!box.isEmpty() && (box.sizes().array() > CrampedShare * image.array()).any())
+    {
+      return {};
+    }
+    if (!box.isEmpty() && where.empty())
+    {
+      const Eigen::Vector2d share = box.center().cwiseQuotient(image);
+      const std::string down = share.y() < 0.4 ? "upper " : share.y() > 0.6 ? "lower " : "";
+      const std::string across = share.x() < 0.4 ? "left" : share.x() > 0.6 ? "right" : "middle";
+      where = ", all balls being in the " + down + across + " of the image";
+    }
+  }
+  return where;
 }
 
 /// The samples that were left out, if they are a run of four or more at the beginning or the end of the capture; otherwise none.
@@ -99,13 +141,8 @@ bool hasSlipped(
 }
 
 /// Residuals of every sample, sums over the used ones, covariance and verdict.
-void conclude(const Samples& samples, const std::vector<int>& used, const Eyes& eyes, const HandEyeCalibrationOptions& options,
-  HandEyeCalibrationResult& result)
+void conclude(const Samples& samples, const Eyes& eyes, const HandEyeCalibrationOptions& options, HandEyeCalibrationResult& result)
 {
-  for (int i : used)
-  {
-    result.samples[std::size_t(i)].used = true;
-  }
   double squaresPx = 0, squaresMm = 0;
   double nearest = std::numeric_limits<double>::infinity(), furthest = 0;
   for (std::size_t i = 0; i < samples.size(); ++i)
@@ -115,6 +152,8 @@ void conclude(const Samples& samples, const std::vector<int>& used, const Eyes& 
     HandEyeCalibrationResult::Sample& sample = result.samples[i];
     sample.residualMm = offset.cross(pair.direction_Lines.normalized()).norm();
     sample.residualPx = residualPx(samples[i], eyes, result.markerToCamera);
+    sample.deviation =
+      sample.residualPx / expectedPx(samples[i], distanceMm(samples[i], eyes, result.markerToCamera), eyes, options);
     if (sample.used)
     {
       squaresPx += sample.residualPx * sample.residualPx;
@@ -127,7 +166,13 @@ void conclude(const Samples& samples, const std::vector<int>& used, const Eyes& 
   result.reprojectionRmsPx = std::sqrt(squaresPx / result.usedCount);
   result.pointToLineRmsMm = std::sqrt(squaresMm / result.usedCount);
   const double misfit = estimateCovariance(samples, eyes, options, result);
-  result.predicted = predictProjectionError(result.covariance, eyes.front(), nearest, furthest);
+  for (const Eye& eye : eyes)
+  {
+    result.predictedByEye.push_back(predictError(result.covariance, eye, nearest, furthest));
+  }
+  result.predicted = result.predictedByEye.front();
+  result.weakestFreedom = describeWeakestFreedom(result.covariance, (nearest + furthest) / 2);
+  const std::string spot = crampedSpot(samples, eyes, result);
   const double scale = apparentScale(samples, eyes, result);
   if (result.isUsable() && result.placeCount < options.minimumSamples)
   {
@@ -158,15 +203,62 @@ void conclude(const Samples& samples, const std::vector<int>& used, const Eyes& 
   {
     result.status = Status::TooUncertain;
     result.message = "the placements leave " + fixedDigits(result.predicted.meanPx, 1) +
-      " px of predicted error over the working volume: spread them over the image and in depth";
+      " px of predicted error over the working volume" + spot + ": spread them over the image and in depth; what they determine " +
+      "least is " + result.weakestFreedom;
+  }
+  else if (result.isUsable() && !(result.predicted.meanPx < PoorPx) && !spot.empty())
+  {
+    result.status = Status::TooUncertain;
+    result.message = "poor: " + fixedDigits(result.predicted.meanPx, 1) + " px predicted over the working volume" + spot +
+      ": spread them over the image and in depth; what they determine least is " + result.weakestFreedom;
   }
   else if (result.isUsable())
   {
-    const char* verdict = result.predicted.meanPx < 1 ? "good: " : result.predicted.meanPx < 3 ? "fair: " : "poor: ";
+    const char* verdict = result.predicted.meanPx < 1 ? "good: " : result.predicted.meanPx < PoorPx ? "fair: " : "poor: ";
     result.message = verdict + fixedDigits(result.predicted.meanPx, 1) + " px predicted over the working volume (" +
       fixedDigits(result.predicted.maximumPx, 1) + " px at worst), " + std::to_string(result.usedCount) + " of " +
-      std::to_string(samples.size()) + " samples used";
+      std::to_string(samples.size()) + " samples used" +
+      (result.predicted.meanPx < PoorPx ? "" : "; what they determine least is " + result.weakestFreedom);
   }
+}
+
+/// Goes on with the noise that the residuals showed.
+void takeEstimatedNoise(const PointLineResult& solution, Samples& samples, HandEyeCalibrationOptions& options)
+{
+  // A capture without any noise is not known to be without any.
+  constexpr double least = 1e-3;
+  options.trackingSigmaMm *= std::max(solution.sigmaMm, least);
+  options.segmentationSigmaPx *= std::max(solution.sigmaRad, least);
+  for (HandEyeSample& sample : samples)
+  {
+    sample.sigmaPx *= std::max(solution.sigmaRad, least);
+  }
+}
+
+/// Goes on with the tip that fits best, if it was found.
+void takeRefinedTip(const HandEyeCalibrationResult& result, Samples& samples, HandEyeCalibrationOptions& options)
+{
+  if (!result.tipCorrection_Stylus)
+  {
+    return;
+  }
+  options.tipCovariance_Stylus = result.refinedTipCovariance_Stylus;
+  for (HandEyeSample& sample : samples)
+  {
+    sample.tip_Marker += sample.stylusToMarker * *result.tipCorrection_Stylus;
+  }
+}
+
+/// The median of the segmentation's sigma over the used samples.
+double typicalSigmaPx(const Samples& samples, const std::vector<int>& used, const HandEyeCalibrationOptions& options)
+{
+  std::vector<double> sigmas;
+  for (int i : used)
+  {
+    const double sigma = samples[std::size_t(i)].sigmaPx;
+    sigmas.push_back(sigma > 0 ? sigma : options.segmentationSigmaPx);
+  }
+  return median(sigmas);
 }
 
 void checkSamples(const Samples& samples, const Eyes& eyes)
@@ -177,7 +269,8 @@ void checkSamples(const Samples& samples, const Eyes& eyes)
   }
   for (const HandEyeSample& sample : samples)
   {
-    const bool finite = sample.tip_Marker.allFinite() && sample.ball_Image.allFinite() && sample.ray_Eye.allFinite();
+    const bool finite = sample.tip_Marker.allFinite() && sample.ball_Image.allFinite() && sample.ray_Eye.allFinite() &&
+      sample.stylusToMarker.allFinite();
     if (!finite || sample.eye < 0 || sample.eye >= int(eyes.size()) || !(sample.ray_Eye.norm() > 0))
     {
       throw std::invalid_argument("hand-eye calibration: sample of frame " + std::to_string(sample.frame) +
@@ -192,15 +285,18 @@ void HandEyeCalibrationOptions::check() const
 {
   if (!(trackingSigmaMm >= 0) || !(segmentationSigmaPx >= 0) || !(trackingSigmaMm + segmentationSigmaPx > 0) ||
     minimumSamples < 4 || !(rejectionFactor > 1) || !(maximumRejectedShare >= 0 && maximumRejectedShare < 1) ||
-    !(maximumMisfit > 0) || !(maximumScaleError > 0) || !(maximumPredictedErrorPx > 0))
+    !(maximumMisfit > 0) || !(maximumScaleError > 0) || !(maximumPredictedErrorPx > 0) || !tipCovariance_Stylus.allFinite() ||
+    (estimateNoise && !(trackingSigmaMm > 0 && segmentationSigmaPx > 0)))
   {
     throw std::invalid_argument(
       "hand-eye calibration options: noise of at least 0, at least 4 samples, a rejection factor above 1 are expected");
   }
 }
 
-HandEyeCalibrationResult calibrateHandEye(const Samples& samples, const Eyes& eyes, const HandEyeCalibrationOptions& options)
+HandEyeCalibrationResult calibrateHandEye(const Samples& givenSamples, const Eyes& eyes, const HandEyeCalibrationOptions& given)
 {
+  Samples samples = givenSamples;
+  HandEyeCalibrationOptions options = given;
   options.check();
   checkSamples(samples, eyes);
   HandEyeCalibrationResult result;
@@ -241,13 +337,29 @@ HandEyeCalibrationResult calibrateHandEye(const Samples& samples, const Eyes& ey
   result.message = solution.message;
   result.iterations = solution.iterations;
   result.conditionNumber = solution.conditionNumber;
-  if (result.status == Status::NotObservable || result.status == Status::Mirrored)
+  if (result.status == Status::NotObservable || result.status == Status::Mirrored || result.status == Status::NotApplicable)
   {
     return result;
   }
+  result.rank = solution.rank;
   result.markerToCamera = solution.pointsToLines;
   result.usedCount = int(used.size());
-  conclude(samples, used, eyes, options, result);
+  for (int i : used)
+  {
+    result.samples[std::size_t(i)].used = true;
+  }
+  if (options.estimateNoise && options.method == PointLineOptions::Method::MaximumLikelihood && result.isUsable())
+  {
+    takeEstimatedNoise(solution, samples, options);
+  }
+  result.trackingSigmaMm = options.trackingSigmaMm;
+  result.segmentationSigmaPx = typicalSigmaPx(samples, used, options);
+  if (options.refineTip && result.isUsable())
+  {
+    refineTip(samples, eyes, options, result);
+    takeRefinedTip(result, samples, options);
+  }
+  conclude(samples, eyes, options, result);
   return result;
 }
 
@@ -269,6 +381,8 @@ std::string toString(Status status)
       return "mirrored";
     case Status::Ambiguous:
       return "ambiguous";
+    case Status::NotApplicable:
+      return "not_applicable";
     case Status::WrongScale:
       return "wrong_scale";
     case Status::MarkerMoved:

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HandEyeConsensus.h"
 
+#include "MinimalSets.h"
 #include "Statistics.h"
 
 #include <algorithm>
 #include <limits>
-#include <random>
 
 namespace handeye
 {
@@ -14,8 +14,6 @@ namespace handeye
 namespace
 {
 
-constexpr std::size_t MinimalSet = 4;
-constexpr int MostDraws = 300;
 constexpr int RejectionRounds = 10;
 /// However much the samples scatter, the limit is not drawn further than this: a set that contradicts itself must not excuse
 /// itself.
@@ -25,38 +23,6 @@ constexpr double LargestScale = 2;
 double scaleOf(const std::vector<double>& normalized)
 {
   return std::clamp(median(normalized) / MedianOfChi2, 1.0, LargestScale);
-}
-
-/// The next set of `MinimalSet` indices: all combinations where they are few, otherwise random draws.
-std::vector<std::vector<int>> minimalSets(int count)
-{
-  std::vector<std::vector<int>> sets;
-  const double combinations = double(count) * (count - 1) * (count - 2) * (count - 3) / 24;
-  if (combinations <= MostDraws)
-  {
-    for (int a = 0; a < count; ++a)
-      for (int b = a + 1; b < count; ++b)
-        for (int c = b + 1; c < count; ++c)
-          for (int d = c + 1; d < count; ++d)
-            sets.push_back({ a, b, c, d });
-    return sets;
-  }
-  std::mt19937 random(1590);
-  std::vector<int> order(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i)
-  {
-    order[std::size_t(i)] = i;
-  }
-  for (int draw = 0; draw < MostDraws; ++draw)
-  {
-    for (std::size_t k = 0; k < MinimalSet; ++k)
-    {
-      std::uniform_int_distribution<std::size_t> any(k, order.size() - 1);
-      std::swap(order[k], order[any(random)]);
-    }
-    sets.emplace_back(order.begin(), order.begin() + MinimalSet);
-  }
-  return sets;
 }
 
 std::vector<int> agreeing(const std::vector<double>& normalized, double limit)

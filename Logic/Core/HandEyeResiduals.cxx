@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HandEyeResiduals.h"
 
+#include "HandEyePrediction.h"
+
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,17 +18,60 @@ namespace
 /// A residual (px) that stands for a point behind the camera or outside of the lens model.
 constexpr double NotSeenPx = 1e4;
 
-double focalLength(const CameraModel& camera)
-{
-  return (camera.fx() + camera.fy()) / 2;
-}
-
 double segmentationSigmaPx(const HandEyeSample& sample, const HandEyeCalibrationOptions& options)
 {
   return sample.sigmaPx > 0 ? sample.sigmaPx : options.segmentationSigmaPx;
 }
 
+/// What the noise of a sample does to its point and its ray.
+PointLineNoise toNoise(const HandEyeSample& sample, const Eyes& eyes, const HandEyeCalibrationOptions& options)
+{
+  const Eye& eye = eyes[std::size_t(sample.eye)];
+  const double sigmaPx = segmentationSigmaPx(sample, options);
+  const Eigen::Vector3d ray_Eye = sample.ray_Eye.normalized();
+  Eigen::Matrix<double, 3, 2> across;
+  across.col(0) = ray_Eye.unitOrthogonal();
+  across.col(1) = ray_Eye.cross(across.col(0));
+  Eigen::Matrix<double, 2, 3> byPoint;
+  Eigen::Matrix2d byPixel = Eigen::Matrix2d::Identity() / focalLength(eye.camera);
+  if (eye.camera.project(ray_Eye, &byPoint).isUsable())
+  {
+    byPixel = (byPoint * across).inverse();
+  }
+  const Eigen::Matrix<double, 3, 2> direction_Camera = eye.cameraToEye.linear().transpose() * across;
+  const Eigen::Matrix<double, 3, 2> byPixel_Camera = sigmaPx * direction_Camera * byPixel;
+  return { options.trackingSigmaMm * options.trackingSigmaMm * Eigen::Matrix3d::Identity(),
+    byPixel_Camera * byPixel_Camera.transpose() };
+}
+
 }  // namespace
+
+double focalLength(const CameraModel& camera)
+{
+  return (camera.fx() + camera.fy()) / 2;
+}
+
+std::optional<HandEyeTerm> handEyeTerm(
+  const HandEyeSample& sample, const Eyes& eyes, const Eigen::Isometry3d& markerToCamera, const HandEyeCalibrationOptions& options)
+{
+  const Eye& eye = eyes[std::size_t(sample.eye)];
+  const Eigen::Vector3d tip_Camera = markerToCamera * sample.tip_Marker;
+  Eigen::Matrix<double, 2, 3> byPoint_Eye;
+  const CameraModel::Projection seen = eye.camera.project(eye.cameraToEye * tip_Camera, &byPoint_Eye);
+  if (!seen.isUsable())
+  {
+    return std::nullopt;
+  }
+  HandEyeTerm term;
+  term.residualPx = seen.point_Image - sample.ball_Image;
+  term.byPoint = byPoint_Eye * eye.cameraToEye.linear();
+  term.byPose = term.byPoint * motionJacobian(tip_Camera);
+  term.sigmaPx = segmentationSigmaPx(sample, options);
+  const Eigen::Matrix<double, 2, 3> byNoise = options.trackingSigmaMm * term.byPoint;
+  term.covariancePx = byNoise * byNoise.transpose();
+  term.covariancePx.diagonal().array() += std::max(term.sigmaPx * term.sigmaPx, 1e-12 * term.covariancePx.trace());
+  return term;
+}
 
 PointLinePair toPair(const HandEyeSample& sample, const Eyes& eyes, double weight)
 {
@@ -76,12 +123,21 @@ PointLineResult solveHandEye(const HandEyeSamples& samples, const std::vector<in
   PointLineOptions pointLine;
   pointLine.method = method;
   pointLine.linesAreRays = true;
+  const bool isLikelihood = method == PointLineOptions::Method::MaximumLikelihood;
+  // The noise comes with its size, unless that is to be estimated.
+  pointLine.sigmaMm = pointLine.sigmaRad = options.estimateNoise ? 0 : 1;
   std::vector<PointLinePair> pairs;
+  std::vector<PointLineNoise> noise;
   for (int i : subset)
   {
-    pairs.push_back(toPair(samples[std::size_t(i)], eyes, 1));
+    const HandEyeSample& sample = samples[std::size_t(i)];
+    pairs.push_back(toPair(sample, eyes, 1));
+    if (isLikelihood)
+    {
+      noise.push_back(toNoise(sample, eyes, options));
+    }
   }
-  PointLineResult result = registerPointsToLines(pairs, pointLine);
+  PointLineResult result = registerPointsToLines(pairs, noise, pointLine);
   for (int round = 0; round < weightRounds && result.isUsable(); ++round)
   {
     for (std::size_t k = 0; k < subset.size(); ++k)

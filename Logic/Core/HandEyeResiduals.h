@@ -4,6 +4,7 @@
 
 #include "HandEyeCalibration.h"
 
+#include <optional>
 #include <vector>
 
 namespace handeye
@@ -31,6 +32,23 @@ double expectedPx(const HandEyeSample& sample, double distance, const Eyes& eyes
 /// Residuals (px) of all samples in multiples of what is expected of them.
 std::vector<double> normalizedResiduals(const HandEyeSamples& samples, const Eyes& eyes, const Eigen::Isometry3d& markerToCamera,
   const HandEyeCalibrationOptions& options);
+
+/// One sample at a solution, in its eye's image.
+struct HandEyeTerm
+{
+  Eigen::Vector2d residualPx = Eigen::Vector2d::Zero();                       ///< projected tip minus segmented ball
+  Eigen::Matrix<double, 2, 3> byPoint = Eigen::Matrix<double, 2, 3>::Zero();  ///< derivative by tip_Camera
+  Eigen::Matrix<double, 2, 6> byPose = Eigen::Matrix<double, 2, 6>::Zero();   ///< by a motion from the left
+  double sigmaPx = 0;                                                         ///< of the segmentation
+  Eigen::Matrix2d covariancePx = Eigen::Matrix2d::Identity();                 ///< that is expected of the residual
+};
+
+/// Nothing where the tip is not seen.
+std::optional<HandEyeTerm> handEyeTerm(
+  const HandEyeSample& sample, const Eyes& eyes, const Eigen::Isometry3d& markerToCamera, const HandEyeCalibrationOptions& options);
+
+/// Mean of fx and fy.
+double focalLength(const CameraModel& camera);
 
 /// The solution of some of the samples; weights follow the distances that the solution itself gives.
 /// @param weightRounds how often the weights are renewed; 0 for equal weights

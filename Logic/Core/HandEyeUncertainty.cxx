@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HandEyeUncertainty.h"
 
-#include "RigidTransform.h"
-
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
+#include <utility>
 
 namespace handeye
 {
@@ -16,105 +15,141 @@ namespace handeye
 namespace
 {
 
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
 /// Tips that are closer than this are one place of the ball.
 constexpr double SamePlaceMm = 2;
-/// From the first of these multiples of the expected scatter on, a misfit is taken to be systematic; from the second on wholly.
+/// From the first of these multiples of the expected scatter on (more where few samples make chance larger), a misfit is taken to
+/// be systematic; this much further on wholly.
 constexpr double RandomMisfit = 1.25;
-constexpr double SystematicMisfit = 2;
+constexpr double ToSystematicMisfit = 0.75;
+/// So many standard deviations above the expected scatter one capture in a hundred and one in a thousand scatter by chance.
+constexpr double OneInHundred = 2.33;
+constexpr double OneInThousand = 3.09;
+
+/// What the solution's normal equations inherit from errors that several samples share.
+struct Shared
+{
+  std::map<int, Eigen::Matrix<double, 6, 3>> byTracking;                      ///< of a place
+  std::map<std::pair<int, int>, Eigen::Matrix<double, 6, 2>> bySegmentation;  ///< of a place and an eye
+  Eigen::Matrix<double, 6, 3> byTip = Eigen::Matrix<double, 6, 3>::Zero();    ///< of all
+};
+
+template<typename Map, typename Matrix> void addTo(Map& map, const typename Map::key_type& key, const Matrix& matrix)
+{
+  const auto inserted = map.try_emplace(key, matrix);
+  if (!inserted.second)
+  {
+    inserted.first->second += matrix;
+  }
+}
+
+Matrix6 sandwich(const Matrix6& normal, const Shared& shared, const HandEyeCalibrationOptions& options)
+{
+  Matrix6 scatter = shared.byTip * options.tipCovariance_Stylus * shared.byTip.transpose();
+  for (const auto& place : shared.byTracking)
+  {
+    scatter += options.trackingSigmaMm * options.trackingSigmaMm * place.second * place.second.transpose();
+  }
+  for (const auto& seen : shared.bySegmentation)
+  {
+    scatter += seen.second * seen.second.transpose();
+  }
+  const Matrix6 inverse = normal.inverse();
+  const Matrix6 covariance = inverse * scatter * inverse;
+  return 0.5 * (covariance + covariance.transpose());
+}
 
 }  // namespace
 
-std::vector<double> placeShares(const HandEyeSamples& samples, const std::vector<int>& used)
-{
-  std::vector<double> shares(samples.size(), 0);
-  for (int i : used)
-  {
-    const auto isHere = [&](int k)
-    { return (samples[std::size_t(k)].tip_Marker - samples[std::size_t(i)].tip_Marker).norm() < SamePlaceMm; };
-    shares[std::size_t(i)] = 1 / double(std::count_if(used.begin(), used.end(), isHere));
-  }
-  return shares;
-}
-
-double estimateCovariance(
-  const HandEyeSamples& samples, const Eyes& eyes, const HandEyeCalibrationOptions& options, HandEyeCalibrationResult& result)
+std::vector<int> usedIndices(const HandEyeCalibrationResult& result)
 {
   std::vector<int> used;
-  for (std::size_t i = 0; i < samples.size(); ++i)
+  for (std::size_t i = 0; i < result.samples.size(); ++i)
   {
     if (result.samples[i].used)
     {
       used.push_back(int(i));
     }
   }
-  const std::vector<double> shares = placeShares(samples, used);
-  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
-  double squares = 0, places = 0;
+  return used;
+}
+
+std::vector<int> placesOf(const HandEyeSamples& samples, const std::vector<int>& used)
+{
+  std::vector<int> places(samples.size(), -1);
+  for (int i : used)
+  {
+    const auto isHere = [&](int k)
+    {
+      const bool isFirst = k == i || places[std::size_t(k)] == k;
+      return isFirst && (samples[std::size_t(k)].tip_Marker - samples[std::size_t(i)].tip_Marker).norm() < SamePlaceMm;
+    };
+    places[std::size_t(i)] = *std::find_if(used.begin(), used.end(), isHere);
+  }
+  return places;
+}
+
+Eigen::Matrix2d weightOf(
+  const HandEyeTerm& term, double distance, const CameraModel& camera, const HandEyeCalibrationOptions& options)
+{
+  const double mmPerPx = std::max(distance, 1.0) / focalLength(camera);
+  switch (options.method)
+  {
+    case PointLineOptions::Method::MaximumLikelihood:
+      return term.covariancePx.inverse();
+    case PointLineOptions::Method::Global:
+      return Eigen::Matrix2d::Identity() /
+        (term.sigmaPx * term.sigmaPx + options.trackingSigmaMm * options.trackingSigmaMm / (mmPerPx * mmPerPx));
+    default:
+      return mmPerPx * mmPerPx * Eigen::Matrix2d::Identity();
+  }
+}
+
+double estimateCovariance(
+  const HandEyeSamples& samples, const Eyes& eyes, const HandEyeCalibrationOptions& options, HandEyeCalibrationResult& result)
+{
+  const std::vector<int> used = usedIndices(result);
+  const std::vector<int> places = placesOf(samples, used);
+  std::map<std::pair<int, int>, int> looks;
+  for (int i : used)
+  {
+    ++looks[{ places[std::size_t(i)], samples[std::size_t(i)].eye }];
+  }
+  Matrix6 normal = Matrix6::Zero();
+  Shared shared;
+  double squares = 0;
   for (int i : used)
   {
     const HandEyeSample& sample = samples[std::size_t(i)];
-    const double share = shares[std::size_t(i)];
-    const Eye& eye = eyes[std::size_t(sample.eye)];
-    const Eigen::Vector3d tip_Camera = result.markerToCamera * sample.tip_Marker;
+    const std::optional<HandEyeTerm> term = handEyeTerm(sample, eyes, result.markerToCamera, options);
+    const std::pair<int, int> look{ places[std::size_t(i)], sample.eye };
+    if (!term)
+    {
+      squares += 1e6;
+      continue;
+    }
+    squares += term->residualPx.dot(term->covariancePx.inverse() * term->residualPx) / looks[look];
     const double distance = distanceMm(sample, eyes, result.markerToCamera);
-    const double misfit = result.samples[std::size_t(i)].residualMm / expectedMm(sample, distance, eyes, options);
-    squares += share * misfit * misfit;
-    places += share;
-    Eigen::Matrix<double, 2, 3> byPoint;
-    if (!eye.camera.project(eye.cameraToEye * tip_Camera, &byPoint).isUsable())
-    {
-      continue;
-    }
-    Eigen::Matrix<double, 3, 6> motion;
-    motion << -skew(tip_Camera), Eigen::Matrix3d::Identity();
-    const Eigen::Matrix<double, 2, 6> byPose =
-      byPoint * eye.cameraToEye.linear() * motion / expectedPx(sample, distance, eyes, options);
-    information += share * byPose.transpose() * byPose;
+    const Eigen::Matrix2d weight = weightOf(*term, distance, eyes[std::size_t(sample.eye)].camera, options);
+    const Eigen::Matrix<double, 6, 2> weighted = term->byPose.transpose() * weight;
+    normal += weighted * term->byPose;
+    const Eigen::Matrix<double, 6, 3> byTip_Camera = weighted * term->byPoint;
+    const Eigen::Matrix3d stylusToCamera = result.markerToCamera.linear() * sample.stylusToMarker;
+    addTo(shared.byTracking, look.first, byTip_Camera);
+    addTo(shared.bySegmentation, look, Eigen::Matrix<double, 6, 2>(term->sigmaPx * weighted));
+    shared.byTip += byTip_Camera * stylusToCamera;
   }
-  const double misfit = std::sqrt(squares / std::max(1.0, 2.0 * places - 6));
-  const double systematic = std::clamp((misfit - RandomMisfit) / (SystematicMisfit - RandomMisfit), 0.0, 1.0);
-  const double varianceFactor = std::max(1.0, misfit * misfit) * (1 + systematic * (places - 1));
-  result.placeCount = int(std::lround(places));
-  result.covariance = varianceFactor * information.inverse();
+  const double freedoms = std::max(1.0, 2.0 * double(looks.size()) - 6);
+  const double misfit = std::sqrt(squares / freedoms);
+  const double deviation = 1 / std::sqrt(2 * freedoms);
+  const double random = std::max(RandomMisfit, 1 + OneInThousand * deviation);
+  const double systematic = std::clamp((misfit - random) / ToSystematicMisfit, 0.0, 1.0);
+  const bool isClearlyMore = misfit > 1 + OneInHundred * deviation;
+  result.placeCount = int(shared.byTracking.size());
+  const double varianceFactor = (isClearlyMore ? misfit * misfit : 1) * (1 + systematic * (result.placeCount - 1));
+  result.covariance = varianceFactor * sandwich(normal, shared, options);
   return misfit;
-}
-
-PredictedError predictProjectionError(
-  const Eigen::Matrix<double, 6, 6>& covariance, const Eye& eye, double nearestMm, double furthestMm)
-{
-  constexpr int columns = 9, rows = 7, depths = 5;
-  PredictedError error;
-  error.nearestMm = nearestMm;
-  error.furthestMm = furthestMm;
-  const double width = eye.camera.hasImageSize() ? eye.camera.width() : 2 * eye.camera.cx() + 1;
-  const double height = eye.camera.hasImageSize() ? eye.camera.height() : 2 * eye.camera.cy() + 1;
-  int count = 0;
-  for (int k = 0; k < depths * rows * columns; ++k)
-  {
-    const Eigen::Vector2d pixel((width - 1) * (k % columns) / (columns - 1), (height - 1) * (k / columns % rows) / (rows - 1));
-    const double depth = nearestMm + (furthestMm - nearestMm) * (k / columns / rows) / (depths - 1);
-    const CameraModel::Unprojection ray = eye.camera.unproject(pixel);
-    if (!ray.isUsable())
-    {
-      continue;
-    }
-    const Eigen::Vector3d point_Eye = ray.ray_Camera * depth / ray.ray_Camera.z();
-    const Eigen::Vector3d point_Camera = eye.cameraToEye.inverse() * point_Eye;
-    Eigen::Matrix<double, 2, 3> byPoint;
-    if (!eye.camera.project(point_Eye, &byPoint).isUsable())
-    {
-      continue;
-    }
-    Eigen::Matrix<double, 3, 6> motion;
-    motion << -skew(point_Camera), Eigen::Matrix3d::Identity();
-    const Eigen::Matrix<double, 2, 6> byPose = byPoint * eye.cameraToEye.linear() * motion;
-    const double rms = std::sqrt(std::max(0.0, (byPose * covariance * byPose.transpose()).trace()));
-    error.meanPx += rms;
-    error.maximumPx = std::max(error.maximumPx, rms);
-    ++count;
-  }
-  error.meanPx = count > 0 ? error.meanPx / count : std::numeric_limits<double>::infinity();
-  return error;
 }
 
 }  // namespace handeye

@@ -7,15 +7,23 @@
 namespace handeye
 {
 
-/// The covariance from the noise that is expected of each used sample, scaled by the scatter that was found if that is more.
-/// Samples of one place share one error, and a scatter well above the expected noise is taken to be systematic: it does not
-/// average out. Stored in the result, whose samples must be filled in. Internal.
+/// The covariance that the expected noise gives the solution of the chosen method, scaled by the scatter that was found where that
+/// is clearly more. The tracker's error is common to the samples of one place, the segmentation's to those of one eye there, the
+/// tip's to all of them; a scatter well above the expected noise is taken to be systematic: it does not average out. Stored in the
+/// result, whose samples must be filled in. Internal.
 /// @return the scatter in multiples of what was expected
 double estimateCovariance(
   const HandEyeSamples& samples, const Eyes& eyes, const HandEyeCalibrationOptions& options, HandEyeCalibrationResult& result);
 
-/// For each sample the share that it has in its place of the ball: 1 over the number of used samples there. Samples are of one
-/// place if their tips are within 2 mm. 0 for samples that are not used.
-std::vector<double> placeShares(const HandEyeSamples& samples, const std::vector<int>& used);
+/// For each sample the first used sample of its place of the ball; samples are of one place if their tips are within 2 mm of that
+/// one's. -1 for samples that are not used.
+std::vector<int> placesOf(const HandEyeSamples& samples, const std::vector<int>& used);
+
+/// How the chosen method weights a residual: by the inverse of its covariance, of its size, or of what a pixel is at its distance.
+Eigen::Matrix2d weightOf(
+  const HandEyeTerm& term, double distance, const CameraModel& camera, const HandEyeCalibrationOptions& options);
+
+/// The indices of the used samples.
+std::vector<int> usedIndices(const HandEyeCalibrationResult& result);
 
 }  // namespace handeye

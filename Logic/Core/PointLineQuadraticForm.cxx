@@ -7,7 +7,9 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
 
 namespace handeye
 {
@@ -15,81 +17,201 @@ namespace handeye
 namespace
 {
 
-using Vector9 = Eigen::Matrix<double, 9, 1>;
+using Vector9 = PointLineQuadraticForm::Vector9;
 using Matrix39 = Eigen::Matrix<double, 3, 9>;
-
-constexpr int MaximumSteps = 60;
-/// One step turns by this much (rad) at most.
-constexpr double LongestTurn = 0.6;
-/// Steps (rad) of the end of the descent, and of its last one.
-constexpr double NearMinimum = 1e-7;
-constexpr double Still = 1e-9;
-
-/// The 3x9 matrix with R x = expand(x) * vec(R).
-Matrix39 expand(const Eigen::Vector3d& point)
-{
-  Matrix39 matrix;
-  matrix << point.x() * Eigen::Matrix3d::Identity(), point.y() * Eigen::Matrix3d::Identity(),
-    point.z() * Eigen::Matrix3d::Identity();
-  return matrix;
-}
+/// A symmetric 3x3 matrix as (xx, xy, xz, yy, yz, zz).
+using Packed = Eigen::Matrix<double, 6, 1>;
 
 Vector9 vec(const Eigen::Matrix3d& matrix)
 {
   return Eigen::Map<const Vector9>(matrix.data());
 }
 
-Eigen::Matrix3d unvec(const Vector9& vector)
+Eigen::Matrix3d unpack(const Packed& packed)
 {
-  return Eigen::Map<const Eigen::Matrix3d>(vector.data());
+  Eigen::Matrix3d matrix;
+  matrix << packed(0), packed(1), packed(2), packed(1), packed(3), packed(4), packed(2), packed(4), packed(5);
+  return matrix;
 }
 
-Eigen::Matrix3d projectorOff(const Eigen::Vector3d& direction)
+/// w (I - d d^T), packed.
+Packed weightedProjector(const PointLinePair& pair)
 {
-  const Eigen::Vector3d unit = direction.normalized();
-  return Eigen::Matrix3d::Identity() - unit * unit.transpose();
+  const Eigen::Vector3d& d = pair.direction_Lines;
+  const double scale = pair.weight / d.squaredNorm();
+  Packed packed;
+  packed << scale * (d.y() * d.y() + d.z() * d.z()), -scale * d.x() * d.y(), -scale * d.x() * d.z(),
+    scale * (d.x() * d.x() + d.z() * d.z()), -scale * d.y() * d.z(), scale * (d.x() * d.x() + d.y() * d.y());
+  return packed;
+}
+
+/// Where the products of two coordinates stand among 1, x, y, z, xx, xy, xz, yy, yz, zz, the first one not greater.
+int monomialOf(int a, int b)
+{
+  return a == 0 ? 4 + b : a == 1 ? 6 + b : 9;
+}
+
+/// w V, packed, and the ten products of a point's coordinates.
+inline void writeTerms(const PointLinePair& pair, const Eigen::Vector3d& centroid, double* projector, double* monomials)
+{
+  const double *d = pair.direction_Lines.data(), *p = pair.point_Points.data();
+  const double xx = d[0] * d[0], yy = d[1] * d[1], zz = d[2] * d[2], scale = pair.weight / (xx + yy + zz);
+  projector[0] = scale * (yy + zz);
+  projector[1] = -scale * d[0] * d[1];
+  projector[2] = -scale * d[0] * d[2];
+  projector[3] = scale * (xx + zz);
+  projector[4] = -scale * d[1] * d[2];
+  projector[5] = scale * (xx + yy);
+  const double x = p[0] - centroid[0], y = p[1] - centroid[1], z = p[2] - centroid[2];
+  monomials[0] = 1;
+  monomials[1] = x;
+  monomials[2] = y;
+  monomials[3] = z;
+  monomials[4] = x * x;
+  monomials[5] = x * y;
+  monomials[6] = x * z;
+  monomials[7] = y * y;
+  monomials[8] = y * z;
+  monomials[9] = z * z;
+}
+
+Eigen::Vector3d apply(const Packed& packed, const Eigen::Vector3d& v)
+{
+  return { packed(0) * v.x() + packed(1) * v.y() + packed(2) * v.z(), packed(1) * v.x() + packed(3) * v.y() + packed(4) * v.z(),
+    packed(2) * v.x() + packed(4) * v.y() + packed(5) * v.z() };
 }
 
 }  // namespace
 
-PointLineQuadraticForm::PointLineQuadraticForm(const std::vector<PointLinePair>& pairs)
+PointLineSummary summarizePairs(const std::vector<PointLinePair>& pairs)
 {
-  double totalWeight = 0;
-  for (const PointLinePair& pair : pairs)
+  PointLineSummary summary;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
   {
-    centroid_ += pair.weight * pair.point_Points;
-    totalWeight += pair.weight;
+    const PointLinePair& pair = pairs[i];
+    // A product with zero is zero unless a number is infinite or none.
+    const double zero = 0 * (pair.point_Points.sum() + pair.origin_Lines.sum() + pair.direction_Lines.sum() + pair.weight);
+    const double squaredLength = pair.direction_Lines.squaredNorm();
+    if (!(zero == 0 && squaredLength > 0 && squaredLength < std::numeric_limits<double>::infinity() && pair.weight > 0))
+    {
+      throw std::invalid_argument("point and line " + std::to_string(i + 1) +
+        ": finite numbers, a direction that is not zero and a positive weight are expected");
+    }
+    summary.centroid_Points += pair.weight * pair.point_Points;
+    summary.totalWeight += pair.weight;
+    summary.hasCommonOrigin = summary.hasCommonOrigin && pair.origin_Lines == pairs.front().origin_Lines;
   }
-  centroid_ /= totalWeight;
+  summary.centroid_Points /= std::max(summary.totalWeight, 1e-300);
+  return summary;
+}
 
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  Matrix39 moment = Matrix39::Zero();
+PointLineQuadraticForm::PointLineQuadraticForm(const std::vector<PointLinePair>& pairs, const PointLineSummary& summary)
+  : totalWeight_(summary.totalWeight)
+  , linesCentre_(pairs.front().origin_Lines)
+  , centroid_(summary.centroid_Points)
+{
+  sumProducts(pairs);
+  if (!summary.hasCommonOrigin)
+  {
+    sumOffsets(pairs);
+  }
+  Matrix39 moment;
+  for (int a = 0; a < 3; ++a)
+  {
+    moment.middleCols<3>(3 * a) = unpack(products_.col(1 + a));
+    for (int b = a; b < 3; ++b)
+    {
+      quadratic_.block<3, 3>(3 * a, 3 * b) = unpack(products_.col(monomialOf(a, b)));
+      quadratic_.block<3, 3>(3 * b, 3 * a) = quadratic_.block<3, 3>(3 * a, 3 * b);
+    }
+  }
+  eliminateTranslation(unpack(products_.col(0)), moment);
+}
+
+void PointLineQuadraticForm::sumProducts(const std::vector<PointLinePair>& pairs)
+{
+  // All that the cost holds of a point is its products (1, x, y, z, xx, xy, ...) with w V. Blocks of pairs become one product of
+  // matrices, which keeps the sums in registers.
+  constexpr int block = 4;
+  Eigen::Matrix<double, 6, block> projectors;
+  Eigen::Matrix<double, 10, block> monomials;
+  const std::size_t inBlocks = pairs.size() / block * block;
+  for (std::size_t first = 0; first < inBlocks; first += block)
+  {
+    for (int k = 0; k < block; ++k)
+    {
+      writeTerms(pairs[first + std::size_t(k)], centroid_, projectors.col(k).data(), monomials.col(k).data());
+    }
+    products_ += projectors.lazyProduct(monomials.transpose());
+  }
+  for (std::size_t i = inBlocks; i < pairs.size(); ++i)
+  {
+    writeTerms(pairs[i], centroid_, projectors.data(), monomials.data());
+    products_ += projectors.col(0).lazyProduct(monomials.col(0).transpose());
+  }
+}
+
+void PointLineQuadraticForm::sumOffsets(const std::vector<PointLinePair>& pairs)
+{
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   for (const PointLinePair& pair : pairs)
   {
-    const Eigen::Matrix3d weighted = pair.weight * projectorOff(pair.direction_Lines);
-    sum += weighted;
-    moment += weighted * expand(pair.point_Points - centroid_);
-    offset += weighted * pair.origin_Lines;
+    offset += apply(weightedProjector(pair), pair.origin_Lines - linesCentre_);
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spectrum(sum);
-  determinesTranslation_ = spectrum.eigenvalues()(0) > 1e-12 * totalWeight;
+  linesCentre_ += unpack(products_.col(0)).ldlt().solve(offset);
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (const PointLinePair& pair : pairs)
+  {
+    const Eigen::Vector3d x = pair.point_Points - centroid_, origin = pair.origin_Lines - linesCentre_;
+    const Eigen::Vector3d off = apply(weightedProjector(pair), origin);
+    moments += off * x.transpose();
+    constant_ += origin.dot(off);
+  }
+  linear_ = -vec(moments);
+}
+
+Eigen::Matrix<double, 6, 6> PointLineQuadraticForm::centredInformation(const Eigen::Matrix3d& rotation) const
+{
+  // -skew(R x) = -sum_a x_a skew(R e_a), so that the sums of x_a V and x_a x_b V are all that is needed.
+  Eigen::Matrix<double, 6, 6> information;
+  Eigen::Matrix3d turns = Eigen::Matrix3d::Zero(), mixed = Eigen::Matrix3d::Zero();
+  for (int a = 0; a < 3; ++a)
+  {
+    const Eigen::Matrix3d left = skew(rotation.col(a));
+    mixed += left * unpack(products_.col(1 + a));
+    for (int b = 0; b < 3; ++b)
+    {
+      const Eigen::Matrix3d half = left * unpack(products_.col(monomialOf(std::min(a, b), std::max(a, b))));
+      turns -= half * skew(rotation.col(b));
+    }
+  }
+  information << turns, mixed, mixed.transpose(), unpack(products_.col(0));
+  return information;
+}
+
+double PointLineQuadraticForm::spread() const
+{
+  // The trace of V is 2.
+  double sum = 0;
+  for (int a = 0; a < 3; ++a)
+  {
+    sum += unpack(products_.col(monomialOf(a, a))).trace();
+  }
+  return std::sqrt(std::max(0.0, sum / (2 * totalWeight_)));
+}
+
+void PointLineQuadraticForm::eliminateTranslation(const Eigen::Matrix3d& sum, const Matrix39& moment)
+{
+  // Parallel lines leave the lowest of the three eigenvalues at zero; their sum is twice the total weight.
+  const double scale = sum.trace();
+  determinesTranslation_ = sum.determinant() > 1e-12 * scale * scale * scale / 16;
   if (!determinesTranslation_)
   {
     return;
   }
-  const Eigen::Matrix3d inverse = sum.inverse();
-  rotationToTranslation_ = -inverse * moment;
-  translationOffset_ = inverse * offset;
-  for (const PointLinePair& pair : pairs)
-  {
-    const Eigen::Matrix3d weighted = pair.weight * projectorOff(pair.direction_Lines);
-    const Matrix39 slope = expand(pair.point_Points - centroid_) + rotationToTranslation_;
-    const Eigen::Vector3d rest = translationOffset_ - pair.origin_Lines;
-    quadratic_ += slope.transpose() * weighted * slope;
-    linear_ += slope.transpose() * (weighted * rest);
-    constant_ += rest.dot(weighted * rest);
-  }
+  rotationToTranslation_.noalias() = -sum.inverse() * moment;
+  quadratic_.noalias() += moment.transpose() * rotationToTranslation_;
+  quadratic_ = (0.5 * (quadratic_ + quadratic_.transpose())).eval();
 }
 
 double PointLineQuadraticForm::cost(const Eigen::Matrix3d& rotation) const
@@ -100,62 +222,15 @@ double PointLineQuadraticForm::cost(const Eigen::Matrix3d& rotation) const
 
 Eigen::Vector3d PointLineQuadraticForm::translation(const Eigen::Matrix3d& rotation) const
 {
-  return rotationToTranslation_ * vec(rotation) + translationOffset_ - rotation * centroid_;
+  return rotationToTranslation_ * vec(rotation) + linesCentre_ - rotation * centroid_;
 }
 
-Eigen::Matrix3d PointLineQuadraticForm::descend(Eigen::Matrix3d rotation, int& steps) const
+Eigen::Isometry3d PointLineQuadraticForm::pointsToLines(const Eigen::Matrix3d& rotation) const
 {
-  static const std::array<Eigen::Matrix3d, 3> generators = { skew(Eigen::Vector3d::UnitX()), skew(Eigen::Vector3d::UnitY()),
-    skew(Eigen::Vector3d::UnitZ()) };
-  double current = cost(rotation);
-  double damping = 0;
-  for (int step = 0; step < MaximumSteps; ++step)
-  {
-    ++steps;
-    const Vector9 slope = quadratic_ * vec(rotation) + linear_;  // half the gradient by vec(R)
-    const Eigen::Matrix3d slopeMatrix = unvec(slope) * rotation.transpose();
-    Eigen::Matrix<double, 9, 3> tangent;
-    for (int k = 0; k < 3; ++k)
-    {
-      tangent.col(k) = vec(generators[k] * rotation);
-    }
-    const Eigen::Vector3d gradient = tangent.transpose() * slope;
-    // d2 exp(w) / dwj dwk at 0 is (Gj Gk + Gk Gj) / 2, and <slope, A R> = <slope R^T, A>: with M = slope R^T this sums to sym(M) -
-    // tr(M) I.
-    Eigen::Matrix3d hessian = tangent.transpose() * quadratic_ * tangent + (slopeMatrix + slopeMatrix.transpose()) / 2 -
-      slopeMatrix.trace() * Eigen::Matrix3d::Identity();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spectrum(hessian);
-    const double lowest = spectrum.eigenvalues()(0), highest = spectrum.eigenvalues().cwiseAbs().maxCoeff();
-    // Where the cost bends downwards its size still gives the length of a step, downhill. A floor much higher than this would slow
-    // down the descent on points that are nearly on one line.
-    const Eigen::Array3d curvature = spectrum.eigenvalues().array().abs().max(1e-12 * highest) + damping * highest + 1e-300;
-    Eigen::Vector3d turn =
-      -spectrum.eigenvectors() * ((spectrum.eigenvectors().transpose() * gradient).array() / curvature).matrix();
-    turn *= std::min(1.0, LongestTurn / std::max(turn.norm(), 1e-300));
-    const Eigen::Matrix3d tried = rotationFromVector(turn) * rotation;
-    const double triedCost = cost(tried);
-    // So near to the minimum the cost is all rounding, but the slope is not.
-    const bool isNear = turn.norm() < NearMinimum && lowest > 0;
-    if (isNear || triedCost <= current * (1 + 1e-14))
-    {
-      rotation = nearestRotation(tried);
-      current = triedCost;
-      damping = damping > 1e-3 ? damping / 10 : 0;
-      if (isNear && turn.norm() < Still)
-      {
-        return rotation;
-      }
-    }
-    else if (turn.norm() < NearMinimum)
-    {
-      return rotation;
-    }
-    else
-    {
-      damping = damping > 0 ? 10 * damping : 1e-2;
-    }
-  }
-  return rotation;
+  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
+  transform.linear() = rotation;
+  transform.translation() = translation(rotation);
+  return transform;
 }
 
 }  // namespace handeye

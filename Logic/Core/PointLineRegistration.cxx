@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointLineRegistration.h"
 
-#include "PointLineQuadraticForm.h"
+#include "NumberWords.h"
+#include "PointLineMethods.h"
 #include "RigidTransform.h"
 
 #include <Eigen/Dense>
@@ -18,239 +19,167 @@ namespace handeye
 namespace
 {
 
-using Pairs = std::vector<PointLinePair>;
 using Status = PointLineResult::Status;
+using Method = PointLineOptions::Method;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr std::size_t MinimumPairs = 4;
-/// Two minima closer than this (rad) are one.
-constexpr double SameRotation = 1e-4;
 /// The information matrix of observable data is better conditioned than this.
 constexpr double WorstCondition = 1e12;
 
-/// The 60 rotations of the icosahedron: no rotation is further than 45 degrees from one of them.
-std::vector<Eigen::Matrix3d> icosahedralRotations()
+/// Sums up  w motion^T V motion  with motion = [-skew(arm), I].
+void addInformation(const PointLinePair& pair, const Eigen::Vector3d& arm, Matrix6& information)
 {
-  const double golden = (1 + std::sqrt(5.0)) / 2;
-  const Eigen::Matrix3d fifth = Eigen::AngleAxisd(2 * EIGEN_PI / 5, Eigen::Vector3d(0, 1, golden).normalized()).toRotationMatrix();
-  const Eigen::Matrix3d third = Eigen::AngleAxisd(2 * EIGEN_PI / 3, Eigen::Vector3d::Ones().normalized()).toRotationMatrix();
-  std::vector<Eigen::Matrix3d> group = { Eigen::Matrix3d::Identity() };
-  for (std::size_t i = 0; i < group.size(); ++i)
-  {
-    for (const Eigen::Matrix3d& generator : { fifth, third })
-    {
-      const Eigen::Matrix3d product = nearestRotation(generator * group[i]);
-      const auto same = [&](const Eigen::Matrix3d& other) { return (other - product).norm() < 1e-6; };
-      if (std::none_of(group.begin(), group.end(), same))
-      {
-        group.push_back(product);
-      }
-    }
-  }
-  return group;
+  const Eigen::Vector3d& d = pair.direction_Lines;
+  const double scale = pair.weight / d.squaredNorm();
+  Eigen::Matrix3d across = -scale * d * d.transpose();
+  across.diagonal().array() += pair.weight;
+  const Eigen::Matrix3d turned = skew(arm) * across;
+  information.topLeftCorner<3, 3>() -= turned * skew(arm);
+  information.topRightCorner<3, 3>() += turned;
+  information.bottomRightCorner<3, 3>() += across;
 }
 
-struct Minimum
+/// The same about another point: arm -> arm + shift.
+Matrix6 shifted(const Matrix6& information, const Eigen::Vector3d& shift)
 {
-  Eigen::Matrix3d rotation;
-  double cost;
-};
-
-/// All different local minima that the starts lead to, the lowest first.
-std::vector<Minimum> findMinima(const PointLineQuadraticForm& form, int& steps)
-{
-  static const std::vector<Eigen::Matrix3d> starts = icosahedralRotations();
-  std::vector<Minimum> minima;
-  for (const Eigen::Matrix3d& start : starts)
-  {
-    const Eigen::Matrix3d rotation = form.descend(start, steps);
-    const auto same = [&](const Minimum& other) { return rotationAngle(other.rotation.transpose() * rotation) < SameRotation; };
-    if (std::none_of(minima.begin(), minima.end(), same))
-    {
-      minima.push_back({ rotation, form.cost(rotation) });
-    }
-  }
-  std::sort(minima.begin(), minima.end(), [](const Minimum& a, const Minimum& b) { return a.cost < b.cost; });
-  return minima;
+  Matrix6 motion = Matrix6::Identity();
+  motion.bottomLeftCorner<3, 3>() = -skew(shift);
+  return motion.transpose() * information * motion;
 }
 
-Eigen::Vector3d fromLine(const PointLinePair& pair, const Eigen::Isometry3d& pointsToLines)
+std::string inWords(const Eigen::Vector3d& direction)
 {
-  const Eigen::Vector3d offset = pointsToLines * pair.point_Points - pair.origin_Lines;
-  const Eigen::Vector3d unit = pair.direction_Lines.normalized();
-  return offset - unit * unit.dot(offset);
+  const Eigen::Vector3d unit = direction.normalized();
+  std::string text = "(";
+  for (int i = 0; i < 3; ++i)
+  {
+    const double rounded = std::round(100 * unit(i)) / 100 + 0.0;
+    text += (i > 0 ? ", " : "") + std::to_string(rounded).substr(0, rounded < 0 ? 5 : 4);
+  }
+  return text + ")";
 }
 
-/// How many points lie in front of their ray's origin.
-int countInFront(const Pairs& pairs, const Eigen::Isometry3d& pointsToLines)
+/// A freedom that nothing fixes makes the result unusable; also where it shows as any number of equal minima, it is the better
+/// reason to give.
+void reportFreedom(const Eigen::Matrix<double, 6, 1>& freedom, PointLineResult& result)
 {
-  return int(std::count_if(pairs.begin(), pairs.end(),
-    [&](const PointLinePair& pair)
-    { return pair.direction_Lines.dot(pointsToLines * pair.point_Points - pair.origin_Lines) > 0; }));
+  result.status = Status::NotObservable;
+  result.message = freedom.head<3>().norm() > freedom.tail<3>().norm()
+    ? "a rotation is not determined, that about the axis " + inWords(freedom.head<3>()) +
+      " of the lines' frame: the points lie on one line or in one place"
+    : "a translation is not determined, that along " + inWords(freedom.tail<3>()) + " of the lines' frame: the lines are parallel";
 }
 
-/// A cost below which all is rounding: that of the quadratic form, whose terms are this large and cancel.
-double roundingCost(const Pairs& pairs)
+/// Residuals, and what the data determine.
+void measure(const PointLinePairs& pairs, const PointLineQuadraticForm& form, PointLineResult& result)
 {
-  double scale = 0;
-  for (const PointLinePair& pair : pairs)
-  {
-    scale += pair.weight * (pair.point_Points.squaredNorm() + pair.origin_Lines.squaredNorm());
-  }
-  return 1e-15 * scale;
-}
-
-void solveGlobal(const Pairs& pairs, const PointLineOptions& options, PointLineResult& result)
-{
-  const PointLineQuadraticForm form(pairs);
-  if (!form.determinesTranslation())
-  {
-    result.status = Status::NotObservable;
-    result.message = "all lines are parallel: nothing fixes the translation along them";
-    return;
-  }
-  const std::vector<Minimum> minima = findMinima(form, result.iterations);
-  result.minimaCount = int(minima.size());
-  const auto transform = [&](const Minimum& minimum)
-  {
-    Eigen::Isometry3d pointsToLines = Eigen::Isometry3d::Identity();
-    pointsToLines.linear() = minimum.rotation;
-    pointsToLines.translation() = form.translation(minimum.rotation);
-    return pointsToLines;
-  };
-  const auto isInFront = [&](const Minimum& minimum) { return 2 * countInFront(pairs, transform(minimum)) > int(pairs.size()); };
-
-  auto chosen = minima.begin();
-  if (options.linesAreRays)
-  {
-    chosen = std::find_if(minima.begin(), minima.end(), isInFront);
-    if (chosen == minima.end())
-    {
-      result.status = Status::Mirrored;
-      result.message = "no solution has the points in front of the camera: points and rays do not belong together";
-      return;
-    }
-  }
-  const double indistinguishable = 1.0001 * chosen->cost + roundingCost(pairs);
-  const auto firstWorse =
-    std::find_if(chosen, minima.end(), [&](const Minimum& minimum) { return minimum.cost > indistinguishable; });
-  // Points of a plane seen along lines through one centre have a twin behind it: directions have a sense, so the one in front is
-  // meant.
-  const auto inFront = std::find_if(chosen, firstWorse, isInFront);
-  chosen = inFront != firstWorse ? inFront : chosen;
-  result.pointsToLines = transform(*chosen);
-  result.status = Status::Ok;
-  for (auto other = minima.begin(); other != firstWorse; ++other)
-  {
-    const bool isRival = other != chosen && (isInFront(*other) || (!options.linesAreRays && inFront == firstWorse));
-    if (isRival)
-    {
-      result.status = Status::Ambiguous;
-      result.message = "two different solutions fit equally well: add points that differ in depth and place";
-    }
-  }
-}
-
-/// The rotation and translation that bring points to points, after Umeyama and Kabsch.
-Eigen::Isometry3d orthogonalProcrustes(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to)
-{
-  const Eigen::Vector3d fromMean = from.rowwise().mean(), toMean = to.rowwise().mean();
-  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
-  transform.linear() = nearestRotation((to.colwise() - toMean) * (from.colwise() - fromMean).transpose());
-  transform.translation() = toMean - transform.linear() * fromMean;
-  return transform;
-}
-
-void solveProcrustes(const Pairs& pairs, const PointLineOptions& options, PointLineResult& result)
-{
-  const Eigen::Index count = Eigen::Index(pairs.size());
-  Eigen::Matrix3Xd points(3, count), onLines(3, count);
-  for (Eigen::Index i = 0; i < count; ++i)
-  {
-    points.col(i) = pairs[i].point_Points;
-    onLines.col(i) = pairs[i].origin_Lines + pairs[i].direction_Lines.normalized();
-  }
-  double last = std::numeric_limits<double>::infinity();
-  result.status = Status::NotConverged;
-  while (result.iterations < options.maximumIterations)
-  {
-    ++result.iterations;
-    result.pointsToLines = orthogonalProcrustes(points, onLines);
-    double squares = 0;
-    for (Eigen::Index i = 0; i < count; ++i)
-    {
-      const Eigen::Vector3d off = fromLine(pairs[i], result.pointsToLines);
-      onLines.col(i) = result.pointsToLines * pairs[i].point_Points - off;
-      squares += off.squaredNorm();
-    }
-    const double rms = std::sqrt(squares / double(count));
-    if (std::abs(last - rms) < options.tolerance)
-    {
-      result.status = Status::Ok;
-      break;
-    }
-    last = rms;
-  }
-  if (result.status == Status::NotConverged)
-  {
-    result.message = "the iteration stopped at its cap of " + std::to_string(options.maximumIterations) + " without converging";
-  }
-  else if (options.linesAreRays && 2 * countInFront(pairs, result.pointsToLines) <= int(pairs.size()))
-  {
-    result.status = Status::Mirrored;
-    result.message = "the iteration ended in the mirrored minimum, with the points behind the camera";
-  }
-}
-
-/// Measures what the data determine; a direction that nothing fixes makes the result unusable.
-void judgeObservability(const Pairs& pairs, PointLineResult& result)
-{
-  result.information = informationMatrix(pairs, result.pointsToLines);
-  Eigen::Vector3d centroid_Points = Eigen::Vector3d::Zero();
-  double squaredNorm = 0;
-  for (const PointLinePair& pair : pairs)
-  {
-    centroid_Points += pair.point_Points / double(pairs.size());
-    squaredNorm += pair.point_Points.squaredNorm() / double(pairs.size());
-  }
-  // Turn about the centroid, by the spread as the unit of length, so that the six numbers are comparable.
-  Pairs centred = pairs;
-  double spread = 0;
-  for (PointLinePair& pair : centred)
-  {
-    pair.point_Points -= centroid_Points;
-    spread += pair.point_Points.squaredNorm() / double(pairs.size());
-  }
-  const double length = std::max({ std::sqrt(spread), 1e-9 * std::sqrt(squaredNorm), 1e-150 });
-  Eigen::Matrix<double, 6, 6> scale = Eigen::Matrix<double, 6, 6>::Identity();
-  scale.topLeftCorner<3, 3>() /= length;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> spectrum(
-    scale * informationMatrix(centred, result.pointsToLines) * scale);
-  const double lowest = std::max(spectrum.eigenvalues()(0), 0.0), highest = spectrum.eigenvalues()(5);
-  result.conditionNumber = lowest > 0 ? highest / lowest : std::numeric_limits<double>::infinity();
-  // A freedom that nothing fixes shows as any number of equal minima, too: this is the better reason to give.
-  const bool hasSolution = result.status == Status::Ok || result.status == Status::Ambiguous;
-  if (!(result.conditionNumber < WorstCondition) && hasSolution)
-  {
-    const Eigen::Matrix<double, 6, 1> freedom = spectrum.eigenvectors().col(0);
-    result.status = Status::NotObservable;
-    result.message = freedom.head<3>().norm() > freedom.tail<3>().norm()
-      ? "a rotation is not determined: the points lie on one line or in one place"
-      : "a translation is not determined: the lines are parallel";
-  }
-}
-
-void checkPairs(const Pairs& pairs)
-{
+  double squares = 0;
+  result.residualsMm.resize(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i)
   {
     const PointLinePair& pair = pairs[i];
-    const bool finite = pair.point_Points.allFinite() && pair.origin_Lines.allFinite() && pair.direction_Lines.allFinite();
-    if (!finite || !(pair.direction_Lines.norm() > 0) || !(pair.weight > 0) || !std::isfinite(pair.weight))
+    const Eigen::Vector3d offset = result.pointsToLines * pair.point_Points - pair.origin_Lines;
+    const double square = offset.cross(pair.direction_Lines).squaredNorm() / pair.direction_Lines.squaredNorm();
+    result.residualsMm[i] = std::sqrt(square);
+    squares += square;
+  }
+  result.rmsMm = std::sqrt(squares / double(pairs.size()));
+  Matrix6 centred = form.centredInformation(result.pointsToLines.linear());
+  result.information = shifted(centred, result.pointsToLines.linear() * form.centroid_Points());
+  // Turn about the centroid, by the spread as the unit of length, so that the six numbers are comparable.
+  const double length = std::max({ form.spread(), 1e-9 * form.centroid_Points().norm(), 1e-150 });
+  centred.topRows<3>() /= length;
+  centred.leftCols<3>() /= length;
+  const Eigen::SelfAdjointEigenSolver<Matrix6> spectrum(centred, Eigen::EigenvaluesOnly);
+  const double lowest = std::max(spectrum.eigenvalues()(0), 0.0), highest = spectrum.eigenvalues()(5);
+  result.conditionNumber = lowest > 0 ? highest / lowest : std::numeric_limits<double>::infinity();
+  result.rank = int((spectrum.eigenvalues().array() > highest / WorstCondition).count());
+  if (!(result.conditionNumber < WorstCondition) && (result.status == Status::Ok || result.status == Status::Ambiguous))
+  {
+    reportFreedom(Eigen::SelfAdjointEigenSolver<Matrix6>(centred).eigenvectors().col(0), result);
+  }
+}
+
+bool isCovariance(const Eigen::Matrix3d& matrix)
+{
+  if (!matrix.allFinite() || (matrix - matrix.transpose()).norm() > 1e-9 * matrix.norm())
+  {
+    return false;
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues()(0) >= -1e-9 * matrix.norm();
+}
+
+void checkNoise(const PointLinePairs& pairs, const std::vector<PointLineNoise>& noise)
+{
+  if (!noise.empty() && noise.size() != pairs.size())
+  {
+    throw std::invalid_argument("point and line " + std::to_string(std::min(pairs.size(), noise.size()) + 1) + ": " +
+      std::to_string(pairs.size()) + " pairs but " + std::to_string(noise.size()) + " covariances, one each or none are expected");
+  }
+  for (std::size_t i = 0; i < noise.size(); ++i)
+  {
+    if (!isCovariance(noise[i].point_Points) || !isCovariance(noise[i].direction_Lines))
     {
       throw std::invalid_argument("point and line " + std::to_string(i + 1) +
-        ": finite numbers, a direction that is not zero and a positive weight are expected");
+        ": symmetric covariances of finite numbers and without negative eigenvalues are expected");
     }
   }
+}
+
+void solve(
+  const PointLinePairs& pairs, const PointLineQuadraticForm& form, const PointLineOptions& options, PointLineResult& result)
+{
+  switch (options.method)
+  {
+    case Method::Global:
+    case Method::MaximumLikelihood:
+      return solveGlobal(pairs, form, options, result);
+    case Method::Procrustes:
+      return solveProcrustes(pairs, options, result);
+    case Method::OrthogonalIteration:
+      return solveOrthogonalIteration(pairs, options, result);
+    case Method::ProcrustesPnP:
+      return solveProcrustesPnP(pairs, options, result);
+    case Method::Epnp:
+    case Method::Sqpnp:
+    case Method::Iterative:
+      return solveByOpenCV(pairs, options, result);
+  }
+}
+
+PointLineResult registerWhatAgrees(
+  const PointLinePairs& pairs, const std::vector<PointLineNoise>& noise, const PointLineOptions& options)
+{
+  const std::vector<int> kept = findAgreeingPairs(pairs, options);
+  PointLineOptions plain = options;
+  plain.rejectOutliers = false;
+  PointLinePairs subset;
+  std::vector<PointLineNoise> subsetNoise;
+  for (int i : kept)
+  {
+    subset.push_back(pairs[std::size_t(i)]);
+    if (!noise.empty())
+    {
+      subsetNoise.push_back(noise[std::size_t(i)]);
+    }
+  }
+  PointLineResult result = registerPointsToLines(subset, subsetNoise, plain);
+  result.residualsMm.clear();
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    result.residualsMm.push_back(offsetFromLine(pairs[i], result.pointsToLines).norm());
+    if (!std::binary_search(kept.begin(), kept.end(), int(i)))
+    {
+      result.rejected.push_back(int(i));
+    }
+  }
+  if (!result.rejected.empty() && result.isUsable())
+  {
+    result.message = "registered " + std::to_string(kept.size()) + " of " + std::to_string(pairs.size()) +
+      " points, the others disagree with them";
+  }
+  return result;
 }
 
 }  // namespace
@@ -261,39 +190,60 @@ void PointLineOptions::check() const
   {
     throw std::invalid_argument("point-to-line options: a positive tolerance and at least one iteration are expected");
   }
+  if (!(sigmaMm >= 0) || !(sigmaRad >= 0) || !std::isfinite(sigmaMm + sigmaRad) || !(robustFactor > 1) || !(maximumMisfit >= 0) ||
+    !(maximumRelativeRms > 0))
+  {
+    throw std::invalid_argument("point-to-line options: noise of at least 0 and a robust factor above 1 are expected");
+  }
 }
 
-PointLineResult registerPointsToLines(const Pairs& pairs, const PointLineOptions& options)
+PointLineResult registerPointsToLines(const PointLinePairs& pairs, const PointLineOptions& options)
+{
+  return registerPointsToLines(pairs, {}, options);
+}
+
+PointLineResult registerPointsToLines(
+  const PointLinePairs& pairs, const std::vector<PointLineNoise>& noise, const PointLineOptions& options)
 {
   options.check();
-  checkPairs(pairs);
+  const PointLineSummary summary = summarizePairs(pairs);
+  checkNoise(pairs, noise);
   PointLineResult result;
   if (pairs.size() < MinimumPairs)
   {
+    if (pairs.size() + 1 == MinimumPairs)
+    {
+      PointLineResult candidates;
+      solveGlobal(pairs, PointLineQuadraticForm(pairs, summary), options, candidates);
+      result.solutions = candidates.status == Status::Ok ? std::vector<Eigen::Isometry3d>{ candidates.pointsToLines }
+                                                         : std::move(candidates.solutions);
+    }
     result.message =
       "only " + std::to_string(pairs.size()) + " points with a line, at least " + std::to_string(MinimumPairs) + " are needed";
     return result;
   }
-  if (options.method == PointLineOptions::Method::Global)
+  if (options.rejectOutliers)
   {
-    solveGlobal(pairs, options, result);
+    return registerWhatAgrees(pairs, noise, options);
   }
-  else
-  {
-    solveProcrustes(pairs, options, result);
-  }
-  if (result.status == Status::NotObservable)
+  const PointLineQuadraticForm form(pairs, summary);
+  solve(pairs, form, options, result);
+  if (result.status == Status::NotObservable || result.status == Status::NotApplicable)
   {
     return result;
   }
-  judgeObservability(pairs, result);
-  double squares = 0;
-  for (const PointLinePair& pair : pairs)
+  measure(pairs, form, result);
+  if (result.isUsable() && options.method == Method::MaximumLikelihood)
   {
-    result.residualsMm.push_back(fromLine(pair, result.pointsToLines).norm());
-    squares += result.residualsMm.back() * result.residualsMm.back();
+    solveMaximumLikelihood(pairs, noise, options, result);
+    measure(pairs, form, result);
   }
-  result.rmsMm = std::sqrt(squares / double(pairs.size()));
+  if (result.isUsable() && result.rmsMm > options.maximumRelativeRms * form.spread() && result.rmsMm > 0)
+  {
+    result.status = Status::PoorFit;
+    result.message = "points and lines do not belong together: the best solution misses the lines by " +
+      significantDigits(result.rmsMm, 3) + " mm (RMS), the points' spread being " + significantDigits(form.spread(), 3) + " mm";
+  }
   if (result.isUsable())
   {
     result.message = "registered " + std::to_string(pairs.size()) + " points";
@@ -301,18 +251,70 @@ PointLineResult registerPointsToLines(const Pairs& pairs, const PointLineOptions
   return result;
 }
 
-Eigen::Matrix<double, 6, 6> informationMatrix(const Pairs& pairs, const Eigen::Isometry3d& pointsToLines)
+Matrix6 informationMatrix(const PointLinePairs& pairs, const Eigen::Isometry3d& pointsToLines)
 {
-  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  Matrix6 information = Matrix6::Zero();
   for (const PointLinePair& pair : pairs)
   {
-    const Eigen::Vector3d unit = pair.direction_Lines.normalized();
-    Eigen::Matrix<double, 3, 6> motion;
-    motion << -skew(pointsToLines.linear() * pair.point_Points), Eigen::Matrix3d::Identity();
-    const Eigen::Matrix<double, 3, 6> off = motion - unit * (unit.transpose() * motion);
-    information += pair.weight * off.transpose() * off;
+    addInformation(pair, pointsToLines.linear() * pair.point_Points, information);
   }
+  information.bottomLeftCorner<3, 3>() = information.topRightCorner<3, 3>().transpose();
   return information;
+}
+
+Eigen::Vector3d offsetFromLine(const PointLinePair& pair, const Eigen::Isometry3d& pointsToLines)
+{
+  const Eigen::Vector3d offset = pointsToLines * pair.point_Points - pair.origin_Lines;
+  const Eigen::Vector3d& d = pair.direction_Lines;
+  return offset - d * (d.dot(offset) / d.squaredNorm());
+}
+
+bool areMostInFront(const PointLinePairs& pairs, const Eigen::Isometry3d& pointsToLines)
+{
+  std::size_t inFront = 0;
+  for (std::size_t i = 0; i < pairs.size() && 2 * inFront <= pairs.size(); ++i)
+  {
+    const PointLinePair& pair = pairs[i];
+    inFront += pair.direction_Lines.dot(pointsToLines * pair.point_Points - pair.origin_Lines) > 0 ? 1 : 0;
+  }
+  return 2 * inFront > pairs.size();
+}
+
+bool haveOneCentre(const PointLinePairs& pairs, const PointLineOptions& options, PointLineResult& result)
+{
+  const bool oneCentre = std::all_of(
+    pairs.begin(), pairs.end(), [&](const PointLinePair& pair) { return pair.origin_Lines == pairs.front().origin_Lines; });
+  if (!oneCentre)
+  {
+    result.status = Status::NotApplicable;
+    result.message = toString(options.method) +
+      " needs lines that all begin at one centre, those of one camera: use ml, global, procrustes or oi for others";
+  }
+  return oneCentre;
+}
+
+std::string toString(Method method)
+{
+  switch (method)
+  {
+    case Method::Global:
+      return "global";
+    case Method::Procrustes:
+      return "procrustes";
+    case Method::MaximumLikelihood:
+      return "ml";
+    case Method::OrthogonalIteration:
+      return "oi";
+    case Method::ProcrustesPnP:
+      return "ppnp";
+    case Method::Epnp:
+      return "epnp";
+    case Method::Sqpnp:
+      return "sqpnp";
+    case Method::Iterative:
+      return "iterative";
+  }
+  return "unknown";
 }
 
 std::string toString(Status status)
@@ -331,6 +333,10 @@ std::string toString(Status status)
       return "mirrored";
     case Status::Ambiguous:
       return "ambiguous";
+    case Status::PoorFit:
+      return "poor_fit";
+    case Status::NotApplicable:
+      return "not_applicable";
   }
   return "unknown";
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CalibrationStep.h"
 
+#include <algorithm>
+
 namespace handeye
 {
 
@@ -25,6 +27,11 @@ std::vector<CalibratedFrame> toFrames(
       frame.used = sample.used;
       frame.residualPx = sample.residualPx;
       frame.residualMm = sample.residualMm;
+      frame.deviation = sample.deviation;
+      if (calibration.tipCorrection_Stylus)
+      {
+        frame.captured.tip_Marker = *capturedFrame.tip_Marker + capturedFrame.stylusToMarker * *calibration.tipCorrection_Stylus;
+      }
       if (calibration.isUsable() && !sample.used)
       {
         frame.status = "disagrees";
@@ -35,7 +42,57 @@ std::vector<CalibratedFrame> toFrames(
   return frames;
 }
 
+/// Where the balls of the usable (or, if there is none, of all) samples were.
+std::vector<Eigen::Vector3d> ballPlaces(const CalibrationStepResult& result)
+{
+  std::vector<Eigen::Vector3d> places;
+  for (const CalibratedFrame& frame : result.frames)
+  {
+    const CapturedFrame& captured = frame.captured;
+    if (!captured.isSample() || (result.calibration.isUsable() && !frame.used))
+    {
+      continue;
+    }
+    const Eigen::Vector3d byTracking = result.calibration.markerToCamera * *captured.tip_Marker;
+    const Eigen::Vector3d bySize = captured.ball.ray_Camera * captured.ball.distanceMm;
+    const Eigen::Vector3d& ball_Camera = result.calibration.isUsable() ? byTracking : bySize;
+    if (ball_Camera.z() > 0)
+    {
+      places.push_back(ball_Camera);
+    }
+  }
+  return places;
+}
+
 }  // namespace
+
+void addGuidance(CalibrationStepResult& result, const HandEyeCalibrationOptions& options, const DepthRange& depthsMm)
+{
+  // A working volume of no depth would ask for all balls at one distance.
+  constexpr double leastDepthRatio = 1.5;
+  const std::vector<Eigen::Vector3d> places = ballPlaces(result);
+  HandEyeGuidanceOptions guidance;
+  guidance.trackingSigmaMm = options.trackingSigmaMm;
+  guidance.segmentationSigmaPx = options.segmentationSigmaPx;
+  if (result.calibration.isUsable())
+  {
+    guidance.trackingSigmaMm = result.calibration.trackingSigmaMm;
+    guidance.segmentationSigmaPx = result.calibration.segmentationSigmaPx;
+  }
+  if (depthsMm)
+  {
+    guidance.nearestMm = depthsMm->first;
+    guidance.furthestMm = depthsMm->second;
+  }
+  else if (!places.empty())
+  {
+    const auto byDepth = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.z() < b.z(); };
+    const auto extremes = std::minmax_element(places.begin(), places.end(), byDepth);
+    guidance.nearestMm = extremes.first->z();
+    guidance.furthestMm = std::max(extremes.second->z(), leastDepthRatio * guidance.nearestMm);
+  }
+  result.guidance = suggestPlacement(places, { result.camera }, guidance);
+}
 
 const HandEyeCalibrationResult& CalibrationStepResult::decisive() const
 {
@@ -45,7 +102,7 @@ const HandEyeCalibrationResult& CalibrationStepResult::decisive() const
 CalibrationStepResult calibrateCapture(const EyeCapture& capture, const HandEyeCalibrationOptions& options)
 {
   const HandEyeCalibrationResult calibration = calibrateHandEye(toSamples(capture.frames), { { capture.camera } }, options);
-  return { calibration, capture.camera, toFrames(capture.frames, calibration, 0), {}, {}, 0, {} };
+  return { calibration, capture.camera, toFrames(capture.frames, calibration, 0), {}, {}, 0, {}, {} };
 }
 
 CalibrationStepResult calibrateStereoCapture(const EyeCapture& left, const EyeCapture& right,
@@ -64,7 +121,7 @@ CalibrationStepResult calibrateStereoCapture(const EyeCapture& left, const EyeCa
   samples.insert(samples.end(), rightSamples.begin(), rightSamples.end());
   const HandEyeCalibrationResult calibration =
     calibrateHandEye(samples, { { left.camera }, { right.camera, *leftToRight } }, options);
-  CalibrationStepResult result{ calibration, left.camera, toFrames(left.frames, calibration, 0), {}, {}, 0, {} };
+  CalibrationStepResult result{ calibration, left.camera, toFrames(left.frames, calibration, 0), {}, {}, 0, {}, {} };
   result.right = { right.camera, toFrames(right.frames, calibration, leftCount), *leftToRight * calibration.markerToCamera, {} };
   return result;
 }

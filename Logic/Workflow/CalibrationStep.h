@@ -4,6 +4,7 @@
 
 #include "Capture.h"
 #include "HandEyeCalibration.h"
+#include "HandEyeGuidance.h"
 
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@ struct CalibratedFrame
   bool used = false;
   double residualPx = 0;  ///< meaningful for samples
   double residualMm = 0;
+  double deviation = 0;  ///< the residual in multiples of what is expected of it
 };
 
 /// A calibration with all that belongs to it. A stereo head adds the right eye.
@@ -41,6 +43,8 @@ struct CalibrationStepResult
     std::optional<HandEyeCalibrationResult> calibration;
   };
   std::optional<RightEye> right;
+  /// Where to hold the ball next, seen with the left (or only) eye.
+  std::optional<HandEyeGuidance> guidance;
 
   bool isUsable() const { return calibration.isUsable() && (!right || !right->calibration || right->calibration->isUsable()); }
   /// Of the first part that is not usable, otherwise of the left eye.
@@ -53,6 +57,13 @@ struct EyeCapture
   CameraModel camera;  ///< with the image size of the capture
   std::vector<CapturedFrame> frames;
 };
+
+/// The depths (mm) between which the ball is to be held; those of the samples where not given.
+using DepthRange = std::optional<std::pair<double, double>>;
+
+/// Says where to hold the ball next; sets result.guidance. Where the capture gives no calibration, the balls' apparent sizes tell
+/// where they were.
+void addGuidance(CalibrationStepResult& result, const HandEyeCalibrationOptions& options, const DepthRange& depthsMm);
 
 /// Calibrates one camera from an evaluated capture.
 [[nodiscard]] CalibrationStepResult calibrateCapture(const EyeCapture& capture, const HandEyeCalibrationOptions& options = {});

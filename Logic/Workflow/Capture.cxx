@@ -32,7 +32,9 @@ void trackTip(const io::Recording& recording, const ToolNames& tools, const Eige
     return;
   }
   const Eigen::Vector3d tip_Tracker = stylus.transform * tip_Stylus;
-  captured.tip_Marker = marker.transform.inverse() * tip_Tracker;
+  const Eigen::Isometry3d trackerToMarker = marker.transform.inverse();
+  captured.tip_Marker = trackerToMarker * tip_Tracker;
+  captured.stylusToMarker = trackerToMarker.linear() * stylus.transform.linear();
 }
 
 template<typename Detect> CapturedFrame detectInFrame(const io::Recording& recording, int frame, Detect detect)
@@ -122,7 +124,7 @@ std::vector<HandEyeSample> toSamples(const std::vector<CapturedFrame>& frames, i
     {
       const BallDetection& ball = captured.ball;
       samples.push_back({ captured.frame, eye, *captured.tip_Marker, ball.ball_Image, ball.ray_Camera, ball.distanceMm,
-        std::sqrt(ball.covariance_Image.trace() / 2) });
+        std::sqrt(ball.covariance_Image.trace() / 2), captured.stylusToMarker });
     }
   }
   return samples;

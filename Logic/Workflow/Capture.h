@@ -38,6 +38,8 @@ struct CapturedFrame
   std::string message;                        ///< for a person
   BallDetection ball;                         ///< meaningful where ball.isFound()
   std::optional<Eigen::Vector3d> tip_Marker;  ///< mm
+  /// Rotation of p_Marker = stylusToMarker * p_Stylus where there is a tip; otherwise zero.
+  Eigen::Matrix3d stylusToMarker = Eigen::Matrix3d::Zero();
 
   bool isSample() const { return status == "ok"; }
 };

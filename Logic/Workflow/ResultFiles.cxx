@@ -3,7 +3,11 @@
 #include "ResultFiles.h"
 
 #include "AtomicFile.h"
+#include "HandEyePrediction.h"
 #include "JsonEigen.h"
+
+#include <cmath>
+#include <cstdio>
 
 namespace handeye
 {
@@ -24,6 +28,15 @@ json cameraJson(const CameraModel& camera)
     { "distortionCoefficients", camera.distortionCoefficients() } };
 }
 
+/// Why a sample was left out.
+std::string disagreement(const CalibratedFrame& frame)
+{
+  char text[160];
+  std::snprintf(text, sizeof(text), "disagrees with the others by %.1f px, %.1f mm: %.0f times what its noise explains",
+    frame.residualPx, frame.residualMm, frame.deviation);
+  return text;
+}
+
 /// What is known of the ball in a frame.
 void addBall(const CapturedFrame& captured, json& row)
 {
@@ -32,6 +45,50 @@ void addBall(const CapturedFrame& captured, json& row)
     row["ball_Image_Px"] = toJson(captured.ball.ball_Image);
     row["ballCovariance_Px2"] = toJson(captured.ball.covariance_Image);
   }
+}
+
+json predictedJson(const PredictedError& predicted)
+{
+  return { { "mean", predicted.meanPx }, { "max", predicted.maximumPx }, { "nearestMm", predicted.nearestMm },
+    { "furthestMm", predicted.furthestMm } };
+}
+
+/// Both predicted errors at three by three pixels and three depths.
+json predictedGrid(const HandEyeCalibrationResult& calibration, const CameraModel& camera)
+{
+  json rows = json::array();
+  const PredictedError& volume = calibration.predicted;
+  for (int k = 0; k < 27 && camera.hasImageSize(); ++k)
+  {
+    const Eigen::Vector2d pixel((camera.width() - 1) * (k % 3) / 2.0, (camera.height() - 1) * (k / 3 % 3) / 2.0);
+    const double depth = volume.nearestMm + (volume.furthestMm - volume.nearestMm) * (k / 9) / 2.0;
+    const std::optional<double> px = predictProjectionErrorPx(calibration.covariance, { camera }, pixel, depth);
+    if (px)
+    {
+      const Eigen::Vector3d point_Camera = *pointSeenAt({ camera }, pixel, depth);
+      rows.push_back({ { "point_Image_Px", toJson(pixel) }, { "depthMm", depth }, { "errorPx", *px },
+        { "errorMm", predictTargetErrorMm(calibration.covariance, point_Camera) } });
+    }
+  }
+  return rows;
+}
+
+json guidanceJson(const HandEyeGuidance& guidance)
+{
+  json object = { { "status", toString(guidance.status) }, { "message", guidance.message },
+    { "worthwhile", guidance.isWorthwhile() } };
+  if (guidance.status != HandEyeGuidance::Status::NoPlace)
+  {
+    object["ball_Image_Px"] = toJson(guidance.ball_Image);
+    object["depthMm"] = guidance.ball_Camera.z();
+    object["gain"] = guidance.gain;
+  }
+  if (guidance.maximumPx > 0 && std::isfinite(guidance.maximumPx))
+  {
+    object["maximumErrorPx"] = guidance.maximumPx;
+    object["maximumErrorAfterPx"] = guidance.maximumAfterPx;
+  }
+  return object;
 }
 
 json sampleRows(const std::vector<CalibratedFrame>& frames, bool hasResiduals)
@@ -49,6 +106,11 @@ json sampleRows(const std::vector<CalibratedFrame>& frames, bool hasResiduals)
     {
       row["residualPx"] = frame.residualPx;
       row["residualMm"] = frame.residualMm;
+      row["deviation"] = frame.deviation;
+    }
+    if (frame.status == "disagrees")
+    {
+      row["message"] = disagreement(frame);
     }
     if (frame.status != "ok" && frame.status != "disagrees")
     {
@@ -66,9 +128,24 @@ void addSolution(const HandEyeCalibrationResult& calibration, json& object)
   object["pointToLineRmsMm"] = calibration.pointToLineRmsMm;
   object["usedSamples"] = calibration.usedCount;
   object["conditionNumber"] = calibration.conditionNumber;
+  object["rank"] = calibration.rank;
+  object["weakestFreedom"] = calibration.weakestFreedom;
   object["iterations"] = calibration.iterations;
-  object["predictedErrorPx"] = { { "mean", calibration.predicted.meanPx }, { "max", calibration.predicted.maximumPx },
+  object["noise"] = { { "trackingSigmaMm", calibration.trackingSigmaMm },
+    { "segmentationSigmaPx", calibration.segmentationSigmaPx } };
+  object["predictedErrorPx"] = predictedJson(calibration.predicted);
+  object["predictedErrorMm"] = { { "mean", calibration.predicted.meanMm }, { "max", calibration.predicted.maximumMm },
     { "nearestMm", calibration.predicted.nearestMm }, { "furthestMm", calibration.predicted.furthestMm } };
+  if (!calibration.tipMessage.empty())
+  {
+    object["tipRefinement"] = { { "refined", calibration.tipCorrection_Stylus.has_value() },
+      { "message", calibration.tipMessage } };
+  }
+  if (calibration.tipCorrection_Stylus)
+  {
+    object["tipRefinement"]["correction_Stylus_Mm"] = toJson(*calibration.tipCorrection_Stylus);
+    object["tipRefinement"]["tipCovariance_Mm2"] = toJson(calibration.refinedTipCovariance_Stylus);
+  }
 }
 
 }  // namespace
@@ -106,6 +183,21 @@ json calibrationJson(const CalibrationStepResult& step)
   {
     object["markerToCamera"] = toJson(step.calibration.markerToCamera);
     addSolution(step.calibration, object);
+    object["predictedErrors"] = predictedGrid(step.calibration, step.camera);
+    if (step.calibration.predictedByEye.size() > 1)
+    {
+      object["rightPredictedErrorPx"] = predictedJson(step.calibration.predictedByEye[1]);
+    }
+  }
+  else
+  {
+    object["rank"] = step.calibration.rank;
+    object["conditionNumber"] = std::isfinite(step.calibration.conditionNumber) ? json(step.calibration.conditionNumber) : json();
+    object["weakestFreedom"] = step.calibration.weakestFreedom;
+  }
+  if (step.guidance)
+  {
+    object["nextPlacement"] = guidanceJson(*step.guidance);
   }
   if (step.right)
   {
@@ -201,8 +293,19 @@ json registrationJson(const PointLineResult& registration)
     object["pointsToLines"] = toJson(registration.pointsToLines);
     object["rmsMm"] = registration.rmsMm;
     object["residualsMm"] = registration.residualsMm;
+    object["rejected"] = registration.rejected;
     object["iterations"] = registration.iterations;
     object["conditionNumber"] = registration.conditionNumber;
+    object["rank"] = registration.rank;
+  }
+  if (registration.isUsable() && !registration.covariance.isZero(0))
+  {
+    object["covariance"] = toJson(registration.covariance);
+    object["noise"] = { { "sigmaMm", registration.sigmaMm }, { "sigmaRad", registration.sigmaRad } };
+  }
+  for (const Eigen::Isometry3d& solution : registration.solutions)
+  {
+    object["solutions"].push_back(toJson(solution));
   }
   return object;
 }

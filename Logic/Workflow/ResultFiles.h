@@ -33,6 +33,9 @@ void writeJson(const std::filesystem::path& path, const nlohmann::json& json);
 /// What later steps need of a stylus.json. @throws io::FileError naming the key; also where the file's status is not "ok"
 Eigen::Vector3d readStylusTip(const std::filesystem::path& path);
 
+/// The tip's covariance (mm^2) of a stylus.json, zero where the file does not hold it. @throws io::FileError where it is none
+Eigen::Matrix3d readStylusTipCovariance(const std::filesystem::path& path);
+
 /// What later steps need of a calibration.json.
 struct StoredCalibration
 {

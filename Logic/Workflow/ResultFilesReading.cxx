@@ -5,6 +5,8 @@
 #include "ResultFiles.h"
 #include "RigidTransform.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <cmath>
 #include <fstream>
 #include <optional>
@@ -108,6 +110,33 @@ Eigen::Isometry3d readTransform(const Path& path, const json& object, const char
 Eigen::Vector3d readStylusTip(const Path& path)
 {
   return readVector(path, readResult(path, "tip_Stylus_Mm"), "tip_Stylus_Mm");
+}
+
+Eigen::Matrix3d readStylusTipCovariance(const Path& path)
+{
+  const char* key = "tipCovariance_Mm2";
+  const json value = readResult(path, "tip_Stylus_Mm").value(key, json());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  if (value.is_null())
+  {
+    return covariance;
+  }
+  bool isMatrix = value.is_array() && value.size() == 3;
+  for (std::size_t row = 0; isMatrix && row < 3; ++row)
+  {
+    isMatrix = value[row].is_array() && value[row].size() == 3;
+    for (std::size_t column = 0; isMatrix && column < 3; ++column)
+    {
+      covariance(Eigen::Index(row), Eigen::Index(column)) = readNumber(path, value[row][column], key);
+    }
+  }
+  const bool isSymmetric = (covariance - covariance.transpose()).norm() <= 1e-6 * covariance.norm();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spectrum(covariance, Eigen::EigenvaluesOnly);
+  if (!isMatrix || !isSymmetric || spectrum.eigenvalues()(0) < -1e-9 * covariance.norm())
+  {
+    throw io::FileError(path, std::string("\"") + key + "\": a covariance, three rows of three numbers, is expected");
+  }
+  return covariance;
 }
 
 StoredCalibration readCalibration(const Path& path)

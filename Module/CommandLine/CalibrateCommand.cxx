@@ -9,7 +9,9 @@
 #include "ResultFiles.h"
 #include "TextTables.h"
 
+#include <cmath>
 #include <memory>
+#include <stdexcept>
 
 namespace handeye::cli
 {
@@ -25,6 +27,7 @@ struct CalibrateArguments
   BallOptions ball;
   HandEyeCalibrationOptions calibration;
   bool keepAll = false;
+  std::vector<double> depthsMm;
   ToolNames tools;
   CommandOutput output;
 };
@@ -53,7 +56,8 @@ void sayLeftOut(const CommandOutput& output, const std::vector<CalibratedFrame>&
       continue;
     }
     const std::string reason = frame.status == "disagrees"
-      ? format("disagrees with the others by %.1f px, %.1f mm", frame.residualPx, frame.residualMm)
+      ? format("disagrees with the others by %.1f px, %.1f mm: %.0f times what its noise explains", frame.residualPx,
+          frame.residualMm, frame.deviation)
       : frame.captured.message;
     output.say(
       "left out             " + eye + "frame " + std::to_string(frame.captured.frame) + ": " + frame.status + " (" + reason + ")");
@@ -88,11 +92,35 @@ void sayResult(const CalibrationStepResult& step, const CommandOutput& output)
   {
     output.say("verdict, right       " + step.right->calibration->message);
   }
+  if (step.isUsable() && calibration.predictedByEye.size() > 1)
+  {
+    const PredictedError& right = calibration.predictedByEye[1];
+    output.say(
+      format("right eye            %.1f px predicted over the working volume (%.1f px at worst)", right.meanPx, right.maximumPx));
+  }
+  if (step.isUsable())
+  {
+    output.say(format("target error         %.2f mm predicted over the working volume (%.2f mm at worst)",
+      calibration.predicted.meanMm, calibration.predicted.maximumMm));
+  }
+  if (!calibration.tipMessage.empty())
+  {
+    output.say("tip                  " + calibration.tipMessage);
+  }
+  if (step.guidance)
+  {
+    output.say("next placement       " + step.guidance->message);
+  }
 }
 
 int runCalibrate(CalibrateArguments& arguments)
 {
+  if (!arguments.depthsMm.empty() && !(arguments.depthsMm[0] < arguments.depthsMm[1]))
+  {
+    throw std::invalid_argument("--depth-range: the nearest depth first and a greater one after it are expected");
+  }
   arguments.calibration.rejectOutliers = !arguments.keepAll;
+  arguments.calibration.tipCovariance_Stylus = readStylusTipCovariance(arguments.stylus);
   const Eigen::Vector3d tip_Stylus = readStylusTip(arguments.stylus);
   const bool isStereo = !arguments.rightRecording.empty();
   const EyeCapture left = readEye(arguments, arguments.recording, arguments.camera, tip_Stylus, isStereo ? " (left)" : "");
@@ -110,7 +138,9 @@ int runCalibrate(CalibrateArguments& arguments)
     const EyeCapture right = readEye(arguments, arguments.rightRecording, arguments.rightCamera, tip_Stylus, " (right)");
     return calibrateStereoCapture(left, right, leftToRight, arguments.calibration);
   }();
-  step.tip_Stylus = tip_Stylus;
+  step.tip_Stylus = tip_Stylus + step.calibration.tipCorrection_Stylus.value_or(Eigen::Vector3d::Zero());
+  addGuidance(step, arguments.calibration,
+    arguments.depthsMm.empty() ? DepthRange() : DepthRange({ arguments.depthsMm[0], arguments.depthsMm[1] }));
   step.ballRadiusMm = arguments.ballRadiusMm;
   step.tools = arguments.tools;
   sayResult(step, arguments.output);
@@ -131,6 +161,24 @@ void addCalibrateCommand(CLI::App& app, int& exitCode)
   addSolverOption(*command, arguments->calibration.method);
   command->add_flag(
     "--keep-all", arguments->keepAll, "Use all samples, also those that disagree with the rest (as the paper does)");
+  addSigmaOption(*command, "--sigma-mm", arguments->calibration.trackingSigmaMm, "Noise of the tracked tip, mm per axis");
+  addSigmaOption(*command, "--sigma-px", arguments->calibration.segmentationSigmaPx,
+    "Noise of the segmented ball where the segmentation does not say, px per axis");
+  command->add_flag(
+    "--estimate-noise", arguments->calibration.estimateNoise, "ml: estimate the size of both kinds of noise from the residuals");
+  command->add_flag("--refine-tip", arguments->calibration.refineTip,
+    "Estimate the stylus' tip along with the camera, where the capture says more of it than the pivot calibration");
+  const auto isDepth = [](const std::string& text)
+  {
+    double depth = 0;
+    const bool good = CLI::detail::lexical_cast(text, depth) && depth > 0 && std::isfinite(depth);
+    return good ? std::string() : "'" + text + "' is not a depth, a positive number of mm is expected";
+  };
+  command
+    ->add_option("--depth-range", arguments->depthsMm, "Depths of the working volume for the next placement, nearest and furthest")
+    ->expected(2)
+    ->check(CLI::Validator(isDepth, std::string()))
+    ->type_name("MM");
   addTransformOption(*command, "--stylus-transform", arguments->tools.stylusToTracker, "stylus");
   addTransformOption(*command, "--marker-transform", arguments->tools.markerToTracker, "camera's marker");
   CLI::Option* right = command->add_option("--right", arguments->rightRecording, "Capture of the right eye of a stereo rig");

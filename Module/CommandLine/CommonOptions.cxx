@@ -76,8 +76,27 @@ void addSegmentationOption(CLI::App& command, BallDetectionOptions::Method& meth
 void addSolverOption(CLI::App& command, PointLineOptions::Method& method)
 {
   using Method = PointLineOptions::Method;
-  addChoice<Method>(command, "--method", method, { { "global", Method::Global }, { "procrustes", Method::Procrustes } }, "global",
-    "How points are brought onto lines: to the global minimum, or by the paper's iteration");
+  std::map<std::string, Method> methods;
+  for (const Method named : { Method::MaximumLikelihood, Method::Global, Method::Procrustes, Method::OrthogonalIteration,
+         Method::ProcrustesPnP, Method::Epnp, Method::Sqpnp, Method::Iterative })
+  {
+    methods[toString(named)] = named;
+  }
+  method = Method::MaximumLikelihood;
+  addChoice<Method>(command, "--method", method, methods, "ml",
+    "How points are brought onto lines: ml (most likely under the noise), global (least distance), procrustes (the paper's "
+    "iteration); for comparison oi, ppnp, and OpenCV's epnp, sqpnp, iterative");
+}
+
+void addSigmaOption(CLI::App& command, const std::string& option, double& sigma, const std::string& what)
+{
+  const auto isSigma = [](const std::string& text)
+  {
+    double value = 0;
+    const bool good = CLI::detail::lexical_cast(text, value) && value >= 0 && std::isfinite(value);
+    return good ? std::string() : "'" + text + "' is not a standard deviation, a number of at least 0 is expected";
+  };
+  command.add_option(option, sigma, what)->check(CLI::Validator(isSigma, std::string()))->capture_default_str();
 }
 
 void addCalibrationOption(CLI::App& command, std::string& calibration)

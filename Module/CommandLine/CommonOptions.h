@@ -19,6 +19,8 @@ void addCameraOption(CLI::App& command, std::string& camera);
 void addBallRadiusOption(CLI::App& command, double& ballRadiusMm);
 void addSegmentationOption(CLI::App& command, BallDetectionOptions::Method& method);
 void addSolverOption(CLI::App& command, PointLineOptions::Method& method);
+/// A standard deviation of at least 0.
+void addSigmaOption(CLI::App& command, const std::string& option, double& sigma, const std::string& what);
 void addCalibrationOption(CLI::App& command, std::string& calibration);
 
 /// @param what "stylus", "camera's marker", ...; an empty `name` is said to be the calibration's

@@ -20,6 +20,7 @@ struct RegisterArguments
 {
   std::string table;
   PointLineOptions options;
+  bool keepAll = false;
   CommandOutput output;
 };
 
@@ -30,11 +31,25 @@ int runRegister(const RegisterArguments& arguments)
   {
     pairs.push_back({ row.point, row.lineOrigin, row.lineDirection, 1 });
   }
-  const PointLineResult registration = registerPointsToLines(pairs, arguments.options);
+  PointLineOptions options = arguments.options;
+  options.maximumMisfit = 4;
+  options.rejectOutliers = !arguments.keepAll;
+  const PointLineResult registration = registerPointsToLines(pairs, options);
   if (registration.isUsable())
   {
     arguments.output.say(matrixLines(registration.pointsToLines.matrix(), "", 12));
-    std::cerr << format("residual %.6g mm RMS over %.0f points\n", registration.rmsMm, double(pairs.size()));
+    for (int row : registration.rejected)
+    {
+      std::cerr << "left out row " << row + 1
+                << format(": disagrees with the others, %.3g mm from its line\n", registration.residualsMm[std::size_t(row)]);
+    }
+    if (arguments.options.method == PointLineOptions::Method::MaximumLikelihood)
+    {
+      std::cerr << format("noise %.3g mm, %.3g rad ", registration.sigmaMm, registration.sigmaRad)
+                << (arguments.options.sigmaMm + arguments.options.sigmaRad > 0 ? "(given)" : "(estimated)") << "\n";
+    }
+    std::cerr << format(
+      "residual %.6g mm RMS over %.0f points\n", registration.rmsMm, double(pairs.size() - registration.rejected.size()));
   }
   return arguments.output.finish(registrationJson(registration));
 }
@@ -51,6 +66,10 @@ void addRegisterCommand(CLI::App& app, int& exitCode)
     ->type_name("POINTS-AND-LINES.txt");
   addSolverOption(*command, arguments->options.method);
   command->add_flag("--rays", arguments->options.linesAreRays, "The lines are rays: points must lie on the side they point to");
+  command->add_flag("--keep-all", arguments->keepAll, "Use all rows, also those that disagree with the rest");
+  addSigmaOption(*command, "--sigma-mm", arguments->options.sigmaMm,
+    "ml: noise of the points, mm per axis; without any noise given it is estimated from the residuals");
+  addSigmaOption(*command, "--sigma-rad", arguments->options.sigmaRad, "ml: noise of the rays' directions, rad per axis");
   arguments->output.addTo(*command);
   command->callback([arguments, &exitCode] { exitCode = runRegister(*arguments); });
 }

@@ -198,6 +198,56 @@ TEST_F(CommandLine, Register_PrintsTheTransform)
   }
 }
 
+TEST_F(CommandLine, Register_TakesEachMethodAndRefusesWhatDoesNotFit)
+{
+  // Six points 400 mm ahead, seen from one centre; moved by (1, 2, 3).
+  const std::string rays = "-1 -2 397 0 0 0 0 0 400\n99 -2 407 0 0 0 100 0 410\n-1 98 427 0 0 0 0 100 430\n"
+                           "-101 -2 447 0 0 0 -100 0 450\n-1 -102 377 0 0 0 0 -100 380\n59 68 397 0 0 0 60 70 400\n";
+  write("rays.txt", rays);
+  for (const std::string method : { "ml", "global", "procrustes", "oi", "ppnp", "epnp", "sqpnp", "iterative" })
+  {
+    const CommandResult result = run({ "register", file("rays.txt"), "--rays", "--method", method, "--json" });
+    ASSERT_EQ(result.exitCode, 0) << method << ": " << result.err << result.out;
+    EXPECT_EQ(result.json().at("rank"), 6);
+    const Eigen::Matrix4d moved = toMatrix(result.json().at("pointsToLines"));
+    EXPECT_LT((moved.topRightCorner<3, 1>() - Eigen::Vector3d(1, 2, 3)).norm(), 0.01) << method;
+  }
+  write("two.txt", rays + "1 2 3 50 0 0 1 2 6\n");
+  const CommandResult refused = run({ "register", file("two.txt"), "--method", "sqpnp" });
+  EXPECT_EQ(refused.exitCode, 1);
+  EXPECT_NE((refused.out + refused.err).find("one centre"), std::string::npos) << refused.out << refused.err;
+  write("wrong.txt",
+    "200 0 0 0 0 0 0 0 1\n0 200 0 0 0 0 1 0 1\n0 0 200 0 0 0 0 1 1\n-200 0 0 0 0 0 1 1 1\n"
+    "0 -200 0 0 0 0 -1 0 1\n0 0 -200 0 0 0 0 -1 1\n150 150 0 0 0 0 -1 -1 1\n");
+  const CommandResult wrong = run({ "register", file("wrong.txt"), "--json", "--sigma-mm", "0.5" });
+  EXPECT_EQ(wrong.exitCode, 1) << wrong.out;
+  EXPECT_FALSE(wrong.json().contains("pointsToLines"));
+  expectRefused({ "register", file("rays.txt"), "--method", "best" }, { "--method", "'best'", "procrustes", "ml" });
+  expectRefused({ "register", file("rays.txt"), "--sigma-mm", "-1" }, { "standard deviation" });
+}
+
+TEST_F(CommandLine, Calibrate_SaysWhereToHoldTheBallNextAndWhatItExpects)
+{
+  ASSERT_EQ(pivot().exitCode, 0);
+  const CommandResult result = calibrate({ "--refine-tip", "--depth-range", "200", "600" });
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const json calibrated = result.json();
+  expectKeys(calibrated.at("nextPlacement"), { "status", "message", "worthwhile", "ball_Image_Px", "depthMm", "gain" });
+  EXPECT_GE(calibrated.at("nextPlacement").at("depthMm").get<double>(), 200);
+  EXPECT_LE(calibrated.at("nextPlacement").at("depthMm").get<double>(), 600.001);
+  expectKeys(calibrated, { "predictedErrorMm", "rank", "conditionNumber", "weakestFreedom", "noise", "tipRefinement" });
+  EXPECT_EQ(calibrated.at("rank"), 6);
+  EXPECT_EQ(calibrated.at("predictedErrors").size(), 27U);
+  expectKeys(calibrated.at("predictedErrors").at(0), { "point_Image_Px", "depthMm", "errorPx", "errorMm" });
+  const CommandResult text = run(
+    { "calibrate", demo("calibration"), "--camera", demo("camera.yml"), "--stylus", file("stylus.json"), "--ball-radius", "15" });
+  EXPECT_NE(text.out.find("next placement"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("target error"), std::string::npos) << text.out;
+  expectRefused({ "calibrate", demo("calibration"), "--camera", demo("camera.yml"), "--stylus", file("stylus.json"),
+                  "--ball-radius", "15", "--depth-range", "600", "200" },
+    { "--depth-range", "nearest" });
+}
+
 TEST_F(CommandLine, DataThatDoNotAllowAResult_Exit1AndKeepTheOldFile)
 {
   write("parallel.txt", "0 0 0 0 0 0 0 0 1\n1 0 0 1 0 0 0 0 1\n0 1 0 0 1 0 0 0 1\n1 1 1 1 1 0 0 0 1\n");

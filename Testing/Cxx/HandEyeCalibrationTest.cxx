@@ -227,6 +227,47 @@ TEST(HandEyeCalibration, Covariance_IsHonest)
   }
 }
 
+TEST(HandEyeCalibration, StereoCovariance_IsHonestAboutTheSharedTip)
+{
+  // Both eyes see the ball where the tracker is wrong by the same: two looks, one error.
+  Random random(41);
+  const auto eyes = stereoHead();
+  constexpr int runs = 150;
+  double chiSquares = 0;
+  for (int run = 0; run < runs; ++run)
+  {
+    const Eigen::Isometry3d truth = random.rigid(80);
+    const auto samples = simulateStereo(eyes, truth, 12, noisy(150, 700), random);
+    const HandEyeCalibrationResult result = calibrateHandEye(samples, eyes, trusting());
+    ASSERT_EQ(result.status, Status::Ok) << result.message;
+    EXPECT_EQ(result.predictedByEye.size(), 2U);
+    EXPECT_EQ(result.placeCount, 12);
+    const Vector6 error = errorOf(result.markerToCamera, truth);
+    chiSquares += error.dot(result.covariance.inverse() * error) / runs;
+  }
+  EXPECT_NEAR(chiSquares, 6, 1.2) << "six freedoms, a standard deviation of 0.28";
+}
+
+TEST(HandEyeCalibration, EstimatedNoise_IsThatOfTheCapture)
+{
+  Random random(42);
+  double px = 0;
+  for (int run = 0; run < 30; ++run)
+  {
+    HandEyeCalibrationOptions options = trusting();
+    options.estimateNoise = true;
+    SimulatedCapture capture = noisy(150, 700);
+    capture.trackingSigmaMm *= 3;
+    capture.segmentationSigmaPx *= 3;
+    const auto samples = simulateSamples(webcam(), random.rigid(80), 20, capture, random);
+    const HandEyeCalibrationResult result = calibrateHandEye(samples, { { webcam() } }, options);
+    ASSERT_TRUE(result.isUsable()) << result.message;
+    // The two are told apart poorly, what they amount to at 400 mm is not.
+    px += std::hypot(result.segmentationSigmaPx, result.trackingSigmaMm * 602 / 400) / 30;
+  }
+  EXPECT_NEAR(px / (3 * std::hypot(0.25, 0.35 * 602 / 400)), 1, 0.08);
+}
+
 TEST(HandEyeCalibration, PredictedError_IsWhatNewPointsShow)
 {
   Random random(5);

@@ -265,6 +265,8 @@ TEST(HandEyeRobustness, BallsInOneCorner_AreTooUncertainOrSaidToBePoor)
     {
       EXPECT_TRUE(says(result.message, { "poor", "px predicted" }));
       EXPECT_GT(result.predicted.meanPx, 5);
+      EXPECT_FALSE(result.isUsable());
+      EXPECT_TRUE(says(result.message, { "upper left of the image", "determine least", "pitch" }));
     }
     else
     {
@@ -382,11 +384,12 @@ TEST(HandEyeRobustness, BadOptions_ThrowASentence)
 TEST(HandEyeRobustness, ToString_NamesEachStatusDifferently)
 {
   std::set<std::string> names;
-  for (const Status status : { Status::Ok, Status::TooFewSamples, Status::NoConsensus, Status::NotObservable, Status::NotConverged,
-         Status::Mirrored, Status::Ambiguous, Status::PoorFit, Status::TooUncertain, Status::WrongScale, Status::MarkerMoved })
+  for (const Status status :
+    { Status::Ok, Status::TooFewSamples, Status::NoConsensus, Status::NotObservable, Status::NotConverged, Status::Mirrored,
+      Status::Ambiguous, Status::PoorFit, Status::TooUncertain, Status::WrongScale, Status::MarkerMoved, Status::NotApplicable })
   {
     names.insert(toString(status));
   }
-  EXPECT_EQ(names.size(), 11U);
+  EXPECT_EQ(names.size(), 12U);
   EXPECT_EQ(names.count("unknown"), 0U);
 }

@@ -258,12 +258,12 @@ TEST(PointLineInput, BadOptions_ThrowASentence)
 TEST(PointLineInput, ToString_NamesEachStatusDifferently)
 {
   std::set<std::string> names;
-  for (const Status status :
-    { Status::Ok, Status::TooFewPairs, Status::NotObservable, Status::NotConverged, Status::Mirrored, Status::Ambiguous })
+  for (const Status status : { Status::Ok, Status::TooFewPairs, Status::NotObservable, Status::NotConverged, Status::Mirrored,
+         Status::Ambiguous, Status::PoorFit, Status::NotApplicable })
   {
     names.insert(toString(status));
   }
-  EXPECT_EQ(names.size(), 6U);
+  EXPECT_EQ(names.size(), 8U);
   EXPECT_EQ(toString(Status::Ok), "ok");
   EXPECT_EQ(names.count("unknown"), 0U);
 }

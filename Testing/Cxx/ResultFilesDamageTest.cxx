@@ -95,6 +95,22 @@ TEST_F(ResultFilesDamage, GoodFiles_AreRead)
   EXPECT_EQ(readPhantomRegistration(folder.write("p.json", GoodPhantom.dump())).matrix(), Eigen::Matrix4d::Identity());
 }
 
+TEST_F(ResultFilesDamage, TipCovariance_IsReadOrRefusedNamingTheKey)
+{
+  const Read readCovariance = [](const std::filesystem::path& path) { (void)readStylusTipCovariance(path); };
+  EXPECT_TRUE(readStylusTipCovariance(folder.write("s.json", GoodStylus.dump())).isZero(0)) << "older files hold none";
+  json good = GoodStylus;
+  good["tipCovariance_Mm2"] = { { 0.04, 0.01, 0 }, { 0.01, 0.09, 0 }, { 0, 0, 0.01 } };
+  EXPECT_EQ(readStylusTipCovariance(folder.write("s.json", good.dump()))(1, 1), 0.09);
+  for (const json& wrong : { json(5), json::array(), json({ { 1, 0, 0 }, { 0, 1, 0 } }), json({ { 1, 0 }, { 0, 1 }, { 0, 0 } }),
+         json({ { 1, 0, "x" }, { 0, 1, 0 }, { 0, 0, 1 } }), json({ { 1, 0.5, 0 }, { 0, 1, 0 }, { 0, 0, 1 } }),
+         json({ { 1, 2, 0 }, { 2, 1, 0 }, { 0, 0, 1 } }), json({ { -1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } }) })
+  {
+    expectRefused(
+      readCovariance, good, [&](json& object) { object["tipCovariance_Mm2"] = wrong; }, "tipCovariance_Mm2");
+  }
+}
+
 TEST_F(ResultFilesDamage, Stylus_IsRefusedNamingTheKey)
 {
   expectVectorIsChecked(readStylus, GoodStylus, "tip_Stylus_Mm");
