@@ -5,13 +5,28 @@
 namespace handeye
 {
 
+namespace
+{
+
+std::vector<int> framesOf(const std::vector<int>& indices, const std::vector<int>& poseFrames)
+{
+  std::vector<int> frames;
+  frames.reserve(indices.size());
+  for (int index : indices)
+  {
+    frames.push_back(poseFrames[std::size_t(index)]);
+  }
+  return frames;
+}
+
+}  // namespace
+
 PivotStepResult pivotFromRecording(
   const io::Recording& recording, const std::string& stylusToTrackerName, const PivotCalibrationOptions& options)
 {
   recording.requireTransform(stylusToTrackerName);
   PivotStepResult result;
   std::vector<Eigen::Isometry3d> poses;
-  std::vector<int> frames;
   for (int frame = 0; frame < recording.frameCount(); ++frame)
   {
     const io::TransformSample stylus = recording.transform(frame, stylusToTrackerName);
@@ -21,17 +36,12 @@ PivotStepResult pivotFromRecording(
       continue;
     }
     poses.push_back(stylus.transform);
-    frames.push_back(frame);
+    result.poseFrames.push_back(frame);
   }
   result.calibration = calibratePivot(poses, options);
-  for (int index : result.calibration.used)
-  {
-    result.usedFrames.push_back(frames[std::size_t(index)]);
-  }
-  for (int index : result.calibration.rejected)
-  {
-    result.rejectedFrames.push_back(frames[std::size_t(index)]);
-  }
+  result.usedFrames = framesOf(result.calibration.used, result.poseFrames);
+  result.rejectedFrames = framesOf(result.calibration.rejected, result.poseFrames);
+  result.repeatedFrames = framesOf(result.calibration.repeated, result.poseFrames);
   return result;
 }
 

@@ -5,6 +5,8 @@
 #include "AtomicFile.h"
 #include "JsonEigen.h"
 
+#include <limits>
+
 namespace handeye
 {
 
@@ -71,23 +73,55 @@ void addSolution(const HandEyeCalibrationResult& calibration, json& object)
     { "nearestMm", calibration.predicted.nearestMm }, { "furthestMm", calibration.predicted.furthestMm } };
 }
 
+/// One row a frame: whether it was used, why not, and its residual.
+json pivotRows(const PivotStepResult& step)
+{
+  json rows = json::array();
+  std::size_t invalid = 0, rejection = 0;
+  const auto addInvalidBefore = [&](int frame)
+  {
+    for (; invalid < step.invalidFrames.size() && step.invalidFrames[invalid] < frame; ++invalid)
+    {
+      rows.push_back({ { "frame", step.invalidFrames[invalid] }, { "status", "not_tracked" }, { "used", false } });
+    }
+  };
+  const PivotCalibrationResult& calibration = step.calibration;
+  for (std::size_t i = 0; i < step.poseFrames.size() && i < calibration.residualsMm.size(); ++i)
+  {
+    addInvalidBefore(step.poseFrames[i]);
+    const bool isRejected = rejection < calibration.rejections.size() && calibration.rejections[rejection].index == int(i);
+    rows.push_back(
+      { { "frame", step.poseFrames[i] }, { "status", isRejected ? toString(calibration.rejections[rejection].reason) : "ok" },
+        { "used", !isRejected }, { "residualMm", calibration.residualsMm[i] } });
+    rejection += isRejected ? 1 : 0;
+  }
+  addInvalidBefore(std::numeric_limits<int>::max());
+  return rows;
+}
+
 }  // namespace
 
 json stylusJson(const PivotStepResult& step)
 {
   const PivotCalibrationResult& calibration = step.calibration;
   json object = result("stylus", toString(calibration.status), calibration.message);
+  object["method"] = toString(calibration.method);
   object["usedFrames"] = calibration.used.size();
   object["rejectedFrames"] = step.rejectedFrames;
   object["invalidFrames"] = step.invalidFrames;
+  object["repeatedFrames"] = step.repeatedFrames;
+  object["samples"] = pivotRows(step);
   if (calibration.isUsable())
   {
     object["tip_Stylus_Mm"] = toJson(calibration.tip_Stylus);
     object["pivot_Tracker_Mm"] = toJson(calibration.pivot_Tracker);
     object["rmsMm"] = calibration.rmsMm;
+    object["meanMm"] = calibration.meanMm;
     object["maxMm"] = calibration.maximumMm;
+    object["noiseFactor"] = calibration.noiseFactor;
     object["tipCovariance_Mm2"] = toJson(calibration.tipCovariance);
     object["rotationSpread_Rad"] = toJson(calibration.rotationSpread);
+    object["angularRange_Rad"] = toJson(calibration.angularRange);
   }
   return object;
 }

@@ -80,6 +80,18 @@ void addSolverOption(CLI::App& command, PointLineOptions::Method& method)
     "How points are brought onto lines: to the global minimum, or by the paper's iteration");
 }
 
+void addPivotMethodOption(CLI::App& command, PivotMethod& method)
+{
+  std::map<std::string, PivotMethod> choices;
+  for (const PivotMethod choice :
+    { PivotMethod::Robust, PivotMethod::AlgebraicOneStep, PivotMethod::AlgebraicTwoStep, PivotMethod::SphereFit })
+  {
+    choices[toString(choice)] = choice;
+  }
+  addChoice<PivotMethod>(command, "--method", method, choices, toString(method),
+    "How the tip is found: robustly, or by a classical method that takes all poses");
+}
+
 void addCalibrationOption(CLI::App& command, std::string& calibration)
 {
   command.add_option("--calibration", calibration, "What `handeye calibrate` wrote")->required()->type_name("calibration.json");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "BallDetection.h"
+#include "PivotCalibration.h"
 #include "PointLineRegistration.h"
 
 #include <CLI/CLI.hpp>
@@ -19,6 +20,7 @@ void addCameraOption(CLI::App& command, std::string& camera);
 void addBallRadiusOption(CLI::App& command, double& ballRadiusMm);
 void addSegmentationOption(CLI::App& command, BallDetectionOptions::Method& method);
 void addSolverOption(CLI::App& command, PointLineOptions::Method& method);
+void addPivotMethodOption(CLI::App& command, PivotMethod& method);
 void addCalibrationOption(CLI::App& command, std::string& calibration);
 
 /// @param what "stylus", "camera's marker", ...; an empty `name` is said to be the calibration's
