@@ -155,7 +155,8 @@ void explainPoorFit(const Eigen::Matrix3Xd& model, const Eigen::Matrix3Xd& phant
     result.suggestedRmsMm = orders[0].rmsMm;
     result.message = misfit + "they were touched in another order; taken in the order " + inWords(orders[0].order) +
       " they fit with " + fixedDigits(orders[0].rmsMm, 2) + " mm";
-    if (orders.size() > 1 && orders[1].rmsMm < AlikeFactor * orders[0].rmsMm + AlikeMm)
+    result.suggestionIsUnique = orders.size() < 2 || orders[1].rmsMm > AlikeFactor * orders[0].rmsMm + AlikeMm;
+    if (!result.suggestionIsUnique)
     {
       result.message += ", and in the order " + inWords(orders[1].order) + " with " + fixedDigits(orders[1].rmsMm, 2) +
         " mm: they are too symmetric to tell";

@@ -61,6 +61,7 @@ struct LandmarkRegistrationResult
   /// misfit; with Ok it fits about as well, so that the landmarks are too symmetric for the order to be checked.
   std::vector<int> suggestedOrder;
   double suggestedRmsMm = 0;
+  bool suggestionIsUnique = false;  ///< no third order fits about as well
 
   bool isUsable() const { return status == Status::Ok; }
 };

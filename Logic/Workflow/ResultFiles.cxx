@@ -195,6 +195,28 @@ json phantomJson(const LandmarkRegistrationResult& registration)
     object["modelToPhantom"] = toJson(registration.modelToPhantom);
     object["rmsMm"] = registration.rmsMm;
     object["residualsMm"] = registration.residualsMm;
+    object["localizationErrorMm"] = registration.localizationErrorMm;
+    object["landmarkTreMm"] = registration.landmarkTreMm;
+    object["targetTreMm"] = registration.targetTreMm;
+  }
+  if (registration.worst >= 0)
+  {
+    object["worstLandmark"] = registration.worst + 1;
+    object["leftOut"] = json::array();
+    for (const LandmarkLeftOut& leftOut : registration.leftOut)
+    {
+      object["leftOut"].push_back({ { "rmsMm", leftOut.rmsMm }, { "missMm", leftOut.missMm } });
+    }
+  }
+  if (!registration.suggestedOrder.empty())
+  {
+    json order = json::array();
+    for (int touched : registration.suggestedOrder)
+    {
+      order.push_back(touched + 1);
+    }
+    object["suggestedOrder"] = order;
+    object["suggestedRmsMm"] = registration.suggestedRmsMm;
   }
   return object;
 }
