@@ -10,8 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <stdexcept>
 
 namespace handeye
@@ -30,46 +28,6 @@ void checkPoses(const PivotPoses& poses)
     {
       throw std::invalid_argument("pivot calibration: pose " + std::to_string(i) + " holds a number that is not finite");
     }
-  }
-}
-
-bool isSamePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
-{
-  return std::memcmp(a.matrix().data(), b.matrix().data(), 16 * sizeof(double)) == 0;
-}
-
-std::uint64_t hashOf(const Eigen::Isometry3d& pose)
-{
-  std::uint64_t hash = 1469598103934665603U;
-  for (const int entry : { 0, 1, 4, 6, 9, 12, 13, 14 })
-  {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, pose.matrix().data() + entry, sizeof(bits));
-    hash = (hash ^ (bits >> 17) ^ bits) * 1099511628211U;
-  }
-  return hash ^ (hash >> 29);
-}
-
-/// Splits the poses into those that say something new and those that repeat an earlier one: a tracker that is asked faster than it
-/// measures, or that froze.
-void findRepeated(const PivotPoses& poses, std::vector<int>& different, std::vector<int>& repeated)
-{
-  std::size_t slots = 64;
-  while (slots < 2 * poses.size())
-  {
-    slots *= 2;
-  }
-  std::vector<int> table(slots, -1);
-  different.reserve(poses.size());
-  for (int i = 0; i < int(poses.size()); ++i)
-  {
-    std::size_t slot = hashOf(poses[std::size_t(i)]) & (slots - 1);
-    while (table[slot] >= 0 && !isSamePose(poses[std::size_t(table[slot])], poses[std::size_t(i)]))
-    {
-      slot = (slot + 1) & (slots - 1);
-    }
-    (table[slot] >= 0 ? repeated : different).push_back(i);
-    table[slot] = table[slot] >= 0 ? table[slot] : i;
   }
 }
 

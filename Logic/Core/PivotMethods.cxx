@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 namespace handeye
 {
@@ -57,7 +59,45 @@ Eigen::Vector4d linearSphere(const PivotPoses& poses, const std::vector<int>& su
   return sphere;
 }
 
+std::uint64_t hashOf(const Eigen::Isometry3d& pose)
+{
+  std::uint64_t hash = 1469598103934665603U;
+  for (const int entry : { 0, 1, 4, 6, 9, 12, 13, 14 })
+  {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, pose.matrix().data() + entry, sizeof(bits));
+    hash = (hash ^ (bits >> 17) ^ bits) * 1099511628211U;
+  }
+  return hash ^ (hash >> 29);
+}
+
 }  // namespace
+
+bool isSamePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
+{
+  return std::memcmp(a.matrix().data(), b.matrix().data(), 16 * sizeof(double)) == 0;
+}
+
+void findRepeated(const PivotPoses& poses, std::vector<int>& different, std::vector<int>& repeated)
+{
+  std::size_t slots = 64;
+  while (slots < 2 * poses.size())
+  {
+    slots *= 2;
+  }
+  std::vector<int> table(slots, -1);
+  different.reserve(poses.size());
+  for (int i = 0; i < int(poses.size()); ++i)
+  {
+    std::size_t slot = hashOf(poses[std::size_t(i)]) & (slots - 1);
+    while (table[slot] >= 0 && !isSamePose(poses[std::size_t(table[slot])], poses[std::size_t(i)]))
+    {
+      slot = (slot + 1) & (slots - 1);
+    }
+    (table[slot] >= 0 ? repeated : different).push_back(i);
+    table[slot] = table[slot] >= 0 ? table[slot] : i;
+  }
+}
 
 void PivotSums::add(const Eigen::Isometry3d& stylusToTracker)
 {

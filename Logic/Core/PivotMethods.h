@@ -55,6 +55,17 @@ PivotSolution solveOneStep(const PivotPoses& poses, const std::vector<int>& subs
 PivotSolution solveTwoStep(const PivotPoses& poses, const std::vector<int>& subset);
 PivotSolution solveSphereFit(const PivotPoses& poses, const std::vector<int>& subset);
 
+/// A cell of about 6 deg in which a rotation lies, as a slot of a small table; cells that share one are taken together.
+constexpr std::size_t OrientationCells = 4096;
+std::size_t orientationCell(const Eigen::Matrix3d& rotation);
+
+/// Bit for bit, which no two measurements of a tracker are.
+bool isSamePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);
+
+/// Splits the poses into those that say something new and those that repeat an earlier one: a tracker that is asked faster than it
+/// measures, or that froze.
+void findRepeated(const PivotPoses& poses, std::vector<int>& different, std::vector<int>& repeated);
+
 /// What the robust method found.
 struct RobustPivot
 {

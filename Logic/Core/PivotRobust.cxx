@@ -32,30 +32,13 @@ constexpr int LikelihoodSteps = 20;
 /// Below this residual (mm) nothing is thrown out: no optical tracker resolves it.
 constexpr double ResolutionMm = 0.01;
 
-/// A cell of about 6 deg in which a rotation lies, as a slot of a small table; cells that share one are taken together.
-constexpr std::size_t CellSlots = 4096;
-
-std::size_t orientationCell(const Eigen::Matrix3d& rotation)
-{
-  constexpr double cellsPerUnit = 10;
-  std::uint32_t hash = 2166136261U;
-  for (int column = 0; column < 2; ++column)
-  {
-    for (int row = 0; row < 3; ++row)
-    {
-      hash = (hash ^ std::uint32_t(std::int32_t(std::floor(cellsPerUnit * rotation(row, column))) + 64)) * 16777619U;
-    }
-  }
-  return (hash ^ (hash >> 15)) % CellSlots;
-}
-
 /// Some of the poses, spread over the orientations: one of each cell first, then a second one, ..., so that a stylus that rested for
 /// most of the recording counts no more than one that moved.
 std::vector<int> spreadOverOrientations(const PivotPoses& poses, const std::vector<int>& subset, std::mt19937& random)
 {
   std::vector<int> shuffled = subset;
   std::shuffle(shuffled.begin(), shuffled.end(), random);
-  std::array<std::uint16_t, CellSlots> held{};
+  std::array<std::uint16_t, OrientationCells> held{};
   std::vector<std::uint16_t> rank(shuffled.size());
   for (std::size_t k = 0; k < shuffled.size(); ++k)
   {
@@ -216,6 +199,20 @@ double stepLikelihood(const PivotPoses& poses, const std::vector<int>& subset, c
 }
 
 }  // namespace
+
+std::size_t orientationCell(const Eigen::Matrix3d& rotation)
+{
+  constexpr double cellsPerUnit = 10;
+  std::uint32_t hash = 2166136261U;
+  for (int column = 0; column < 2; ++column)
+  {
+    for (int row = 0; row < 3; ++row)
+    {
+      hash = (hash ^ std::uint32_t(std::int32_t(std::floor(cellsPerUnit * rotation(row, column))) + 64)) * 16777619U;
+    }
+  }
+  return (hash ^ (hash >> 15)) % OrientationCells;
+}
 
 ResidualVariance residualVariance(const TrackerNoise& noise, double tipDistanceMm)
 {

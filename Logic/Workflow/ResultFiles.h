@@ -33,6 +33,9 @@ void writeJson(const std::filesystem::path& path, const nlohmann::json& json);
 /// What later steps need of a stylus.json. @throws io::FileError naming the key; also where the file's status is not "ok"
 Eigen::Vector3d readStylusTip(const std::filesystem::path& path);
 
+/// All of a stylus.json, to be written again with more in it. @throws io::FileError as readStylusTip()
+nlohmann::json readStylus(const std::filesystem::path& path);
+
 /// What later steps need of a calibration.json.
 struct StoredCalibration
 {

@@ -110,6 +110,11 @@ Eigen::Vector3d readStylusTip(const Path& path)
   return readVector(path, readResult(path, "tip_Stylus_Mm"), "tip_Stylus_Mm");
 }
 
+json readStylus(const Path& path)
+{
+  return readResult(path, "tip_Stylus_Mm");
+}
+
 StoredCalibration readCalibration(const Path& path)
 {
   const json object = readResult(path, "markerToCamera");

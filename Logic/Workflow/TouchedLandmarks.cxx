@@ -279,14 +279,24 @@ TouchedLandmarksResult landmarksFromRecording(
     recording.requireTransform(result.phantomToTracker);
   }
   const StylusStream stream = readStream(recording, result);
-  const auto tipOfRecording = tip_Stylus ? std::nullopt : tipOfStream(stream, options.largestTipErrorMm);
+  const bool isTipKnown = tip_Stylus && !tip_Stylus->isZero(0);
+  const auto tipOfRecording = isTipKnown ? std::nullopt : tipOfStream(stream, options.largestTipErrorMm);
   if (!tip_Stylus && !tipOfRecording)
   {
     result.status = Status::WrongTip;
     result.message = "the stylus was not pivoted in this recording, so that its tip is not known: give its calibration";
     return result;
   }
-  result.tip_Stylus = tip_Stylus ? *tip_Stylus : *tipOfRecording;
+  result.tip_Stylus = tipOfRecording && !isTipKnown ? *tipOfRecording : *tip_Stylus;
+  if (tip_Stylus && tipOfRecording && tipOfRecording->norm() > options.largestTipErrorMm)
+  {
+    result.warnings.push_back("the tip that was given is the marker's origin, but the stylus in this recording turns about " +
+      inWords(result.tip_Stylus) + ", which is taken");
+  }
+  else if (tip_Stylus)
+  {
+    result.tip_Stylus = *tip_Stylus;
+  }
   const std::vector<Rest> rests = joinSamePlaces(findRests(stream, result.tip_Stylus, options.stillness), options.samePlaceMm);
   sortRests(rests, stream, result);
   result.tipInRecording_Stylus = tipInRecording(stream, rests, options.largestTipErrorMm);

@@ -66,7 +66,8 @@ struct TouchedLandmarksResult
 ///
 /// If the stylus was pivoted, the recording itself says where its tip is; a given tip that contradicts it is refused.
 ///
-/// @param tip_Stylus mm; nothing to take the tip from the recording
+/// @param tip_Stylus mm; nothing to take the tip from the recording. A tip of zero says that the poses are the tip's own; where the stylus
+///   turns about another point, that one is taken, with a warning.
 /// @throws io::FileError, listing the transforms that there are, where a tool is not in the recording; std::invalid_argument if the
 ///   options do not check
 [[nodiscard]] TouchedLandmarksResult landmarksFromRecording(

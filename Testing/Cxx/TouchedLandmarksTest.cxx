@@ -157,12 +157,30 @@ TEST(TouchedLandmarks, PlusRecordingWithoutATip_FindsItByItself)
 
 TEST(TouchedLandmarks, TipOfAnotherStylus_IsRefusedWithTheOneInTheRecording)
 {
-  for (const Eigen::Vector3d& tip : { Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, -158) })
+  for (const Eigen::Vector3d& tip : { Eigen::Vector3d(0, 0, -158), Eigen::Vector3d(109, 15, 3) })
   {
     const TouchedLandmarksResult result = landmarksFromRecording(plusRecording(), tip);
     EXPECT_EQ(result.status, Status::WrongTip) << result.message;
     EXPECT_TRUE(says(result.message, { "turns about (109.", "mm from the tip that was given" }));
   }
+}
+
+TEST(TouchedLandmarks, ZeroTipOfAStylusThatTurnsElsewhere_IsWarnedOf)
+{
+  const TouchedLandmarksResult result = landmarksFromRecording(plusRecording(), Eigen::Vector3d::Zero());
+  ASSERT_EQ(result.status, Status::Ok) << result.message;
+  EXPECT_EQ(result.landmarks.size(), 8U);
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_TRUE(says(result.warnings[0], { "turns about (109." }));
+  // Where the poses are the tip's own, zero is right.
+  TouchSimulation touching;
+  touching.stylus.tip_Stylus.setZero();
+  touching.touchAll(Landmarks, 80, 0.4);
+  const TemporaryFolder folder;
+  const TouchedLandmarksResult own = landmarksFromRecording(touching.write(folder), Eigen::Vector3d(0, 0, 0));
+  EXPECT_TRUE(own.warnings.empty());
+  EXPECT_TRUE(own.tip_Stylus.isZero(0));
+  EXPECT_EQ(own.landmarks.size(), 4U) << own.message;
 }
 
 TEST(TouchedLandmarks, HeldStill_GivesThePoints)
