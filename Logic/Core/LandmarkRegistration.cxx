@@ -27,7 +27,8 @@ using Matrix36d = Eigen::Matrix<double, 3, 6>;
 
 /// A mirrored fit that is better than the proper one by this factor gives a mirror image away.
 constexpr double MirrorFactor = 4;
-/// Another order fits about as well as the given one if its residuals are less than this multiple of it, or this much (mm) above it.
+/// Another order fits about as well as the given one if its residuals are less than this multiple of it, or this much (mm)
+/// above it.
 constexpr double AlikeFactor = 1.5;
 constexpr double AlikeMm = 0.3;
 

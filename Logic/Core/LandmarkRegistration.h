@@ -57,8 +57,8 @@ struct LandmarkRegistrationResult
   std::vector<double> targetTreMm;       ///< the same at each target
   std::vector<LandmarkLeftOut> leftOut;  ///< one per landmark, from 4 landmarks on
   int worst = -1;                        ///< the landmark without which the residuals are least; -1 for fewer than 4
-  /// Another order that fits, if there is one: touched point suggestedOrder[i] belongs to landmark i. With WrongOrder it explains the
-  /// misfit; with Ok it fits about as well, so that the landmarks are too symmetric for the order to be checked.
+  /// Another order that fits, if there is one: touched point suggestedOrder[i] belongs to landmark i. With WrongOrder it
+  /// explains the misfit; with Ok it fits about as well, so that the landmarks are too symmetric for the order to be checked.
   std::vector<int> suggestedOrder;
   double suggestedRmsMm = 0;
   bool suggestionIsUnique = false;  ///< no third order fits about as well
@@ -71,19 +71,19 @@ struct LandmarkRegistrationResult
 ///
 /// Residuals say how well the landmarks fit, not how far off a target will be. That is predicted by carrying the error of touching,
 /// with the residuals' root mean square FRE and FLE^2 = FRE^2 n / (n - 2), through the registration: with equal weights
-/// TRE^2(r) = FLE^2 / n (1 + 1/3 sum_k d_k^2 / f_k^2), d_k the target's distance from principal axis k of the landmarks and f_k their
-/// root mean square distance from it; with weights by the covariance of the six parameters.
+/// TRE^2(r) = FLE^2 / n (1 + 1/3 sum_k d_k^2 / f_k^2), d_k the target's distance from principal axis k of the landmarks and f_k
+/// their root mean square distance from it; with weights by the covariance of the six parameters.
 ///
-/// A fit of more than `largestRmsMm` is not usable; its message offers the order that fits, if the landmarks were touched in another
-/// one, or names the landmark whose leaving out helps most.
+/// A fit of more than `largestRmsMm` is not usable; its message offers the order that fits, if the landmarks were touched in
+/// another one, or names the landmark whose leaving out helps most.
 ///
 /// That the two lists were exchanged cannot be seen from them: the result is then the inverse, with the same residuals.
 ///
 /// @param points_Model,points_Phantom the same landmarks in the same order, mm
 /// @throws std::invalid_argument if the counts differ, a number is not finite, or the options do not check
 /// Thread-safe.
-/// References: S. Umeyama, IEEE PAMI 13:376 (1991), eq. 40-42 without scale; J. Fitzpatrick, J. West, C. Maurer, IEEE TMI 17:694 (1998),
-/// eq. 10 (FLE) and 46 (TRE).
+/// References: S. Umeyama, IEEE PAMI 13:376 (1991), eq. 40-42 without scale; J. Fitzpatrick, J. West, C. Maurer, IEEE TMI
+/// 17:694 (1998), eq. 10 (FLE) and 46 (TRE).
 [[nodiscard]] LandmarkRegistrationResult registerLandmarks(const std::vector<Eigen::Vector3d>& points_Model,
   const std::vector<Eigen::Vector3d>& points_Phantom, const LandmarkRegistrationOptions& options = {});
 

@@ -120,16 +120,16 @@ struct PivotCalibrationResult
 ///
 /// - AlgebraicOneStep minimises sum |e_i|^2; AlgebraicTwoStep sum |e_i - e_j|^2 over pairs of poses; SphereFit
 ///   sum (|marker_i - pivot_Tracker| - radius)^2. They take all poses, and do not look for errors among them.
-/// - Robust looks for the tip by sample consensus on triples of poses (deterministic; scored on poses spread over the orientations, so that
-///   a stylus at rest for most of the recording does no harm), throws out what disagrees, and then maximises the likelihood. Noise
-///   of the marker's position (sigma_t per axis) and rotation (sigma_r) moves e_i by sigma_t along the shaft and by
-///   (sigma_t^2 + sigma_r^2 |tip|^2)^1/2 across it, so e_i is weighted by that; since the weights depend on the tip, so does the
-///   gradient, which takes out the bias that least squares have towards a short stylus. The minimum is found by Gauss-Newton in the
-///   six unknowns with fixed-size matrices and no allocation; Ceres would spend more on setting the problem up than this on
-///   solving it.
+/// - Robust looks for the tip by sample consensus on triples of poses (deterministic; scored on poses spread over the
+///   orientations, so that a stylus at rest for most of the recording does no harm), throws out what disagrees, and then
+///   maximises the likelihood. Noise of the marker's position (sigma_t per axis) and rotation (sigma_r) moves e_i by sigma_t
+///   along the shaft and by (sigma_t^2 + sigma_r^2 |tip|^2)^1/2 across it, so e_i is weighted by that; since the weights depend
+///   on the tip, so does the gradient, which takes out the bias that least squares have towards a short stylus. The minimum is
+///   found by Gauss-Newton in the six unknowns with fixed-size matrices and no allocation; Ceres would spend more on setting
+///   the problem up than this on solving it.
 ///
-/// Poses that repeat an earlier one bit for bit are not used by any method. The rotation is judged by how much each direction of the
-/// tip was moved by it, so that spinning about one axis does not pass, whatever its angle.
+/// Poses that repeat an earlier one bit for bit are not used by any method. The rotation is judged by how much each direction
+/// of the tip was moved by it, so that spinning about one axis does not pass, whatever its angle.
 ///
 /// @param stylusToTracker poses of one stylus
 /// @throws std::invalid_argument if a pose is not finite (naming it) or the options do not check

@@ -38,13 +38,13 @@ struct DomeCoverage
   double share() const;
 };
 
-/// Pivot calibration while the stylus is being pivoted: poses arrive one by one, and at any time there is an estimate, how good it is,
-/// and what is missing.
+/// Pivot calibration while the stylus is being pivoted: poses arrive one by one, and at any time there is an estimate, how good
+/// it is, and what is missing.
 ///
-/// Frames and equation are those of calibratePivot(), which makes the estimates from the poses that are kept. At most `capacity` are: when
-/// it is full, poses of crowded orientations give way to those of rare ones, so that time spent in one place costs nothing else.
-/// Poses that disagree with a usable estimate are counted, not kept; when they prevail, the tip has moved, and the estimate is
-/// no longer enough. Memory does not grow with the stream.
+/// Frames and equation are those of calibratePivot(), which makes the estimates from the poses that are kept. At most
+/// `capacity` are: when it is full, poses of crowded orientations give way to those of rare ones, so that time spent in one
+/// place costs nothing else. Poses that disagree with a usable estimate are counted, not kept; when they prevail, the tip has
+/// moved, and the estimate is no longer enough. Memory does not grow with the stream.
 ///
 /// Not safe to share between threads.
 class PivotCollector

@@ -32,8 +32,8 @@ constexpr int LikelihoodSteps = 20;
 /// Below this residual (mm) nothing is thrown out: no optical tracker resolves it.
 constexpr double ResolutionMm = 0.01;
 
-/// Some of the poses, spread over the orientations: one of each cell first, then a second one, ..., so that a stylus that rested for
-/// most of the recording counts no more than one that moved.
+/// Some of the poses, spread over the orientations: one of each cell first, then a second one, ..., so that a stylus that
+/// rested for most of the recording counts no more than one that moved.
 std::vector<int> spreadOverOrientations(const PivotPoses& poses, const std::vector<int>& subset, std::mt19937& random)
 {
   std::vector<int> shuffled = subset;

@@ -35,8 +35,7 @@ struct SpinCalibrationResult
     TooFewPoses,
     TooLittleSpin,    ///< the stylus was hardly turned
     NotOneAxis,       ///< it was tilted about as much as it was spun: there is no one axis
-    UnclearDirection  ///< the tip lies across the axis, so that its end with the tip cannot be told: a wrong tip, or it was not spun
-                      ///< about its shaft
+    UnclearDirection  ///< the tip lies across the axis: not spun about the shaft, or the tip of another stylus
   };
 
   Status status = Status::TooFewPoses;
@@ -53,17 +52,17 @@ struct SpinCalibrationResult
   bool isUsable() const { return status == Status::Ok; }
 };
 
-/// Finds the direction of a stylus' shaft from poses in which it is spun about it, as SlicerIGT's spin calibration does, and with the
-/// known tip the whole frame of the tip.
+/// Finds the direction of a stylus' shaft from poses in which it is spun about it, as SlicerIGT's spin calibration does, and
+/// with the known tip the whole frame of the tip.
 ///
-/// Frames: stylusToTracker poses. Spinning about the shaft leaves stylusToTracker_i.linear() * shaft_Stylus where it is, so the shaft is
-/// the direction that the rotations R_i spread least: the eigenvector of sum (R_i - mean R)^T (R_i - mean R) with the smallest
-/// eigenvalue. Poses in which it points elsewhere are found by sample consensus on the axes of relative rotations of two poses
-/// (deterministic), and left out.
+/// Frames: stylusToTracker poses. Spinning about the shaft leaves stylusToTracker_i.linear() * shaft_Stylus where it is, so the
+/// shaft is the direction that the rotations R_i spread least: the eigenvector of sum (R_i - mean R)^T (R_i - mean R) with the
+/// smallest eigenvalue. Poses in which it points elsewhere are found by sample consensus on the axes of relative rotations of
+/// two poses (deterministic), and left out.
 ///
-/// p_Stylus = stylusTipToStylus * p_StylusTip: the origin is the tip, -Z runs from the tip along the shaft (the convention of PLUS), X is
-/// the projection of that axis of the stylus which is most across the shaft, and Y completes a right-handed frame. Spinning does not
-/// fix X: it is a convention, and stable.
+/// p_Stylus = stylusTipToStylus * p_StylusTip: the origin is the tip, -Z runs from the tip along the shaft (the convention of
+/// PLUS), X is the projection of that axis of the stylus which is most across the shaft, and Y completes a right-handed frame.
+/// Spinning does not fix X: it is a convention, and stable.
 ///
 /// @param stylusToTracker poses of one stylus, spun about its shaft, in a divot or in the fingers
 /// @param tip_Stylus mm, from calibratePivot()

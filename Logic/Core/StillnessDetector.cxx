@@ -121,7 +121,7 @@ std::optional<Rest> StillnessDetector::add(double timeSec, const Eigen::Isometry
   }
   else
   {
-    ++rest_.leftOut;
+    ++pending_;
   }
   return ended;
 }
@@ -179,6 +179,7 @@ void StillnessDetector::tryToBegin()
   }
   isResting_ = true;
   rest_ = {};
+  pending_ = 0;
   scatter_.setZero();
   orientationSum_.coeffs().setZero();
   rest_.beginSec = window_[begin].timeSec;
@@ -191,7 +192,7 @@ void StillnessDetector::tryToBegin()
     }
     else
     {
-      ++rest_.leftOut;
+      ++pending_;
     }
   }
 }
@@ -200,6 +201,8 @@ void StillnessDetector::tryToBegin()
 void StillnessDetector::include(const Sample& sample)
 {
   ++rest_.count;
+  rest_.leftOut += pending_;
+  pending_ = 0;
   const Eigen::Vector3d before = sample.tip_World - rest_.tip_World;
   rest_.tip_World += before / double(rest_.count);
   const Eigen::Vector3d after = sample.tip_World - rest_.tip_World;

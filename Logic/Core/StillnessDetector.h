@@ -60,9 +60,10 @@ struct Rest
 /// Recognises from a stream of poses where a tool was held still, or pivoted on its resting tip.
 ///
 /// Frames: tip_World = toolToWorld * tip_Tool; World is the tracker, or better a marker on what is touched. A rest begins with the
-/// first `minimumDurationSec` in which at most a tenth of the samples lie beyond the limits about the median; it goes on while samples
-/// stay within the limits about the running mean, and ends with an excursion or a gap that is too long. Memory is fixed at
-/// construction; each sample costs one pass over a window of at most 256 samples until a rest has begun, and constant time from then on.
+/// first `minimumDurationSec` in which at most a tenth of the samples lie beyond the limits about the median; it goes on while
+/// samples stay within the limits about the running mean, and ends with an excursion or a gap that is too long. Memory is fixed
+/// at construction; each sample costs one pass over a window of at most 256 samples until a rest has begun, and constant time
+/// from then on.
 ///
 /// Not safe to share between threads.
 class StillnessDetector
@@ -113,6 +114,7 @@ private:
   double newestValidSec_ = 0;
   bool isResting_ = false;
   Rest rest_;
+  int pending_ = 0;  ///< samples beyond the limits since the last one of the rest
   Eigen::Matrix3d scatter_ = Eigen::Matrix3d::Zero();
   Eigen::Quaterniond orientationSum_ = Eigen::Quaterniond::Identity();
 };

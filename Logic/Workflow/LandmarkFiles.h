@@ -14,8 +14,8 @@
 namespace handeye
 {
 
-/// Lists of landmarks: text with "x y z" a line (mm), or what landmarksFromRecording() found, as JSON or as such a text whose first line
-/// says so.
+/// Lists of landmarks: text with "x y z" a line (mm), or what landmarksFromRecording() found, as JSON or as such a text whose
+/// first line says so.
 
 struct LandmarkList
 {
@@ -26,9 +26,9 @@ struct LandmarkList
 /// @throws io::FileError naming the line or the key; also where a JSON file's status is not "ok"
 [[nodiscard]] LandmarkList readLandmarks(const std::filesystem::path& path);
 
-/// Reads the model's landmarks and the touched ones. Exchanged, they would give the inverse registration with the same residuals, so that
-/// what can be known beforehand is looked at: a list that says of itself that it was touched is no model's; nor are lists whose file
-/// names both say the contrary ("touched" for the model's, "model" for the touched).
+/// Reads the model's landmarks and the touched ones. Exchanged, they would give the inverse registration with the same
+/// residuals, so that what can be known beforehand is looked at: a list that says of itself that it was touched is no model's;
+/// nor are lists whose file names both say the contrary ("touched" for the model's, "model" for the touched).
 /// @throws io::FileError
 struct LandmarkLists
 {

@@ -17,7 +17,8 @@ namespace handeye
 struct TouchedLandmarksOptions
 {
   std::string stylusToTracker = "StylusToTracker";
-  /// Pose of the marker on what is touched. Empty: PhantomToTracker, ReferenceToTracker or, if there is but one other tool, that one.
+  /// Pose of the marker on what is touched. Empty: PhantomToTracker, ReferenceToTracker or, if there is but one other tool,
+  /// that one.
   std::string phantomToTracker;
   StillnessOptions stillness;
   /// Rests in a row that are nearer to each other than this (mm) are one landmark, touched once.
@@ -66,7 +67,8 @@ struct TouchedLandmarksResult
 ///
 /// If the stylus was pivoted, the recording itself says where its tip is; a given tip that contradicts it is refused.
 ///
-/// @param tip_Stylus mm; nothing to take the tip from the recording. A tip of zero says that the poses are the tip's own; where the stylus
+/// @param tip_Stylus mm; nothing to take the tip from the recording. A tip of zero says that the poses are the tip's own; where
+/// the stylus
 ///   turns about another point, that one is taken, with a warning.
 /// @throws io::FileError, listing the transforms that there are, where a tool is not in the recording; std::invalid_argument if the
 ///   options do not check

@@ -171,6 +171,14 @@ TEST(PivotCollector, StylusThatSlips_IsNoticedAndNoLongerEnough)
   EXPECT_FALSE(collector.hasTipMoved());
   EXPECT_EQ(collector.counts().total(), 0);
   EXPECT_EQ(collector.estimate().status, PivotCalibrationResult::Status::TooFewPoses);
+  stylus.tip_Stylus += Eigen::Vector3d(10, 5, -20);
+  for (int i = 0; i < 800; ++i)
+  {
+    collector.add(stylus.pose(circling(i, 35 * Degree), random));
+  }
+  EXPECT_TRUE(collector.isEnough());
+  EXPECT_TRUE(pointNear(collector.estimate().tip_Stylus, stylus.tip_Stylus, 0.1)) << "nothing of the one before is left";
+  EXPECT_TRUE(pointNear(collector.estimate().pivot_Tracker, stylus.pivot_Tracker, 0.1));
 }
 
 TEST(PivotCollector, SpinningOnly_IsNeverEnough)

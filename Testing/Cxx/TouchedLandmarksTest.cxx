@@ -22,8 +22,8 @@ namespace
 using Points = std::vector<Eigen::Vector3d>;
 using Status = TouchedLandmarksResult::Status;
 
-/// A stream that PLUS recorded with an electromagnetic tracker: the stylus lies still, is pivoted on the eight landmarks of an fCal 2.0
-/// phantom in turn, and lies still again.
+/// A stream that PLUS recorded with an electromagnetic tracker: the stylus lies still, is pivoted on the eight landmarks of an
+/// fCal 2.0 phantom in turn, and lies still again.
 io::Recording plusRecording()
 {
   return io::Recording::open(std::filesystem::path(HANDEYE_TEST_DATA_DIR) / "plus_landmarks.igs.mha");
