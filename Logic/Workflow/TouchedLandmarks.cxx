@@ -308,6 +308,11 @@ TouchedLandmarksResult landmarksFromRecording(
       fixedDigits(tipErrorMm, 1) + " mm from the tip that was given, " + inWords(result.tip_Stylus) + ": is this its calibration?";
     return result;
   }
+  if (tipErrorMm > options.noticedTipErrorMm)
+  {
+    result.warnings.push_back("the stylus in this recording turns about " + inWords(*result.tipInRecording_Stylus) + ", " +
+      fixedDigits(tipErrorMm, 1) + " mm from its tip: the touched points may be off by as much");
+  }
   if (result.landmarks.empty())
   {
     result.message = "the tip rests nowhere within " + fixedDigits(options.stillness.maximumMotionMm, 1) + " mm for " +

@@ -24,7 +24,9 @@ struct TouchedLandmarksOptions
   /// Rests in a row that are nearer to each other than this (mm) are one landmark, touched once.
   double samePlaceMm = 4;
   /// The tip may be this far (mm) from the one about which the recorded stylus turns, before the stylus' calibration is doubted.
-  double largestTipErrorMm = 5;
+  double largestTipErrorMm = 3;
+  /// And this far without a warning; a few seconds of pivoting on each landmark know the tip about as well.
+  double noticedTipErrorMm = 1;
 
   /// @throws std::invalid_argument with a sentence where a number makes no sense
   void check() const;

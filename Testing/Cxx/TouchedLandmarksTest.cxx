@@ -144,6 +144,7 @@ TEST(TouchedLandmarks, PlusRecordingWithATipThatIsALittleOff_StillGivesAllEight)
     const TouchedLandmarksResult result = landmarksFromRecording(plusRecording(), tip);
     EXPECT_TRUE(result.isUsable()) << result.message;
     EXPECT_EQ(result.landmarks.size(), 8U) << tip.transpose();
+    EXPECT_EQ(result.warnings.empty(), (*result.tipInRecording_Stylus - tip).norm() <= 1);
   }
 }
 
