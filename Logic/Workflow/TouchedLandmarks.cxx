@@ -62,9 +62,14 @@ std::string choosePhantom(const io::Recording& recording, const TouchedLandmarks
   return others.size() == 1 ? others.front() : std::string();
 }
 
-StylusStream readStream(const io::Recording& recording, const TouchedLandmarksResult& names)
+StylusStream readStream(const io::Recording& recording, TouchedLandmarksResult& names)
 {
   StylusStream stream;
+  if (recording.frameCount() > 0 && !recording.timestampSec(0))
+  {
+    names.warnings.push_back(
+      "the recording has no timestamps: " + fixedDigits(AssumedFramesPerSec, 0) + " frames a second are assumed");
+  }
   for (int frame = 0; frame < recording.frameCount(); ++frame)
   {
     const io::TransformSample stylus = recording.transform(frame, names.stylusToTracker);

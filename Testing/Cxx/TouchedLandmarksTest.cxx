@@ -253,6 +253,21 @@ TEST(TouchedLandmarks, NoMarkerOnThePhantom_IsWarnedOf)
   EXPECT_TRUE(pointNear(result.landmarks[1].point_Phantom, touching.phantomToTracker * Landmarks[1], 0.15));
 }
 
+TEST(TouchedLandmarks, NoTimestamps_AreWarnedOf)
+{
+  TouchSimulation touching;
+  touching.touchAll(Landmarks, 40, 0);
+  for (io::SequenceFrame& frame : touching.frames)
+  {
+    frame.timestampSec.reset();
+  }
+  const TemporaryFolder folder;
+  const TouchedLandmarksResult result = landmarksFromRecording(touching.write(folder), touching.stylus.tip_Stylus);
+  EXPECT_EQ(result.landmarks.size(), 4U) << result.message;
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_TRUE(says(result.warnings[0], { "no timestamps", "20 frames a second" }));
+}
+
 TEST(TouchedLandmarks, UnknownTransforms_ListThoseThatExist)
 {
   TouchedLandmarksOptions options;
