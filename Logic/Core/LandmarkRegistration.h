@@ -83,7 +83,7 @@ struct LandmarkRegistrationResult
 /// @throws std::invalid_argument if the counts differ, a number is not finite, or the options do not check
 /// Thread-safe.
 /// References: S. Umeyama, IEEE PAMI 13:376 (1991), eq. 40-42 without scale; J. Fitzpatrick, J. West, C. Maurer, IEEE TMI
-/// 17:694 (1998), eq. 10 (FLE) and 46 (TRE).
+/// 17:694 (1998), for FLE and TRE.
 [[nodiscard]] LandmarkRegistrationResult registerLandmarks(const std::vector<Eigen::Vector3d>& points_Model,
   const std::vector<Eigen::Vector3d>& points_Phantom, const LandmarkRegistrationOptions& options = {});
 
