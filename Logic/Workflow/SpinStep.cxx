@@ -3,6 +3,7 @@
 #include "SpinStep.h"
 
 #include "JsonEigen.h"
+#include "TrackedPoses.h"
 
 namespace handeye
 {
@@ -10,30 +11,12 @@ namespace handeye
 SpinStepResult spinFromRecording(const io::Recording& recording, const std::string& stylusToTrackerName,
   const Eigen::Vector3d& tip_Stylus, const SpinCalibrationOptions& options)
 {
-  recording.requireTransform(stylusToTrackerName);
+  const TrackedPoses tracked = readTrackedPoses(recording, stylusToTrackerName);
   SpinStepResult result;
-  std::vector<Eigen::Isometry3d> poses;
-  std::vector<int> poseFrames;
-  for (int frame = 0; frame < recording.frameCount(); ++frame)
-  {
-    const io::TransformSample stylus = recording.transform(frame, stylusToTrackerName);
-    if (!stylus.isUsable())
-    {
-      result.invalidFrames.push_back(frame);
-      continue;
-    }
-    poses.push_back(stylus.transform);
-    poseFrames.push_back(frame);
-  }
-  result.calibration = calibrateSpin(poses, tip_Stylus, options);
-  for (int index : result.calibration.used)
-  {
-    result.usedFrames.push_back(poseFrames[std::size_t(index)]);
-  }
-  for (int index : result.calibration.rejected)
-  {
-    result.rejectedFrames.push_back(poseFrames[std::size_t(index)]);
-  }
+  result.calibration = calibrateSpin(tracked.toolToTracker, tip_Stylus, options);
+  result.invalidFrames = tracked.invalidFrames;
+  result.usedFrames = tracked.framesOf(result.calibration.used);
+  result.rejectedFrames = tracked.framesOf(result.calibration.rejected);
   return result;
 }
 
