@@ -3,14 +3,13 @@
 #include "PivotCalibration.h"
 
 #include "NumberWords.h"
-#include "Statistics.h"
+#include "PivotJudgement.h"
+#include "PivotMethods.h"
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <random>
 #include <stdexcept>
 
 namespace handeye
@@ -19,151 +18,127 @@ namespace handeye
 namespace
 {
 
-using Poses = std::vector<Eigen::Isometry3d>;
 using Status = PivotCalibrationResult::Status;
 
-constexpr int ConsensusDraws = 400;
-constexpr int RejectionRounds = 20;
-/// Below this residual (mm) nothing is thrown out: no optical tracker resolves it.
-constexpr double ResolutionMm = 0.01;
-
-/// The centred normal equations: with R' = R - mean(R), p' = p - mean(p), the tip minimises sum |R' tip + p'|^2.
-struct NormalEquations
+void checkPoses(const PivotPoses& poses)
 {
-  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d tip_Stylus = Eigen::Vector3d::Zero();
-  Eigen::Vector3d pivot_Tracker = Eigen::Vector3d::Zero();
-};
-
-NormalEquations solve(const Poses& poses, const std::vector<int>& subset)
-{
-  Eigen::Matrix3d meanRotation = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d meanPosition = Eigen::Vector3d::Zero();
-  for (int i : subset)
+  for (std::size_t i = 0; i < poses.size(); ++i)
   {
-    meanRotation += poses[i].linear() / double(subset.size());
-    meanPosition += poses[i].translation() / double(subset.size());
-  }
-  NormalEquations normal;
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (int i : subset)
-  {
-    const Eigen::Matrix3d centred = poses[i].linear() - meanRotation;
-    normal.matrix += centred.transpose() * centred;
-    right -= centred.transpose() * (poses[i].translation() - meanPosition);
-  }
-  normal.tip_Stylus = normal.matrix.completeOrthogonalDecomposition().solve(right);
-  normal.pivot_Tracker = meanRotation * normal.tip_Stylus + meanPosition;
-  return normal;
-}
-
-std::vector<double> residuals(const Poses& poses, const NormalEquations& solution)
-{
-  std::vector<double> lengths;
-  lengths.reserve(poses.size());
-  for (const Eigen::Isometry3d& stylusToTracker : poses)
-  {
-    lengths.push_back((stylusToTracker * solution.tip_Stylus - solution.pivot_Tracker).norm());
-  }
-  return lengths;
-}
-
-/// The triple of poses whose tip leaves the smallest median residual over all poses.
-NormalEquations consensus(const Poses& poses)
-{
-  std::mt19937 random(20170420);
-  std::uniform_int_distribution<int> any(0, int(poses.size()) - 1);
-  NormalEquations best;
-  double bestMedian = std::numeric_limits<double>::infinity();
-  for (int draw = 0; draw < ConsensusDraws; ++draw)
-  {
-    const std::vector<int> triple = { any(random), any(random), any(random) };
-    const NormalEquations candidate = solve(poses, triple);
-    const double typical = median(residuals(poses, candidate));
-    if (typical < bestMedian)
+    if (!poses[i].matrix().allFinite())
     {
-      bestMedian = typical;
-      best = candidate;
+      throw std::invalid_argument("pivot calibration: pose " + std::to_string(i) + " holds a number that is not finite");
     }
   }
-  return best;
 }
 
-std::vector<int> inliers(const std::vector<double>& lengths, double factor)
+void solveBy(const PivotPoses& poses, const std::vector<int>& different, const PivotCalibrationOptions& options,
+  PivotCalibrationResult& result)
 {
-  const double sigma = median(lengths) / MedianOfChi3;
-  const double limit = std::max(factor * sigma, ResolutionMm);
-  std::vector<int> kept;
-  for (std::size_t i = 0; i < lengths.size(); ++i)
+  PivotSolution solution;
+  result.used = different;
+  switch (options.method)
   {
-    if (lengths[i] <= limit)
+    case PivotMethod::Robust:
     {
-      kept.push_back(int(i));
+      RobustPivot robust = solveRobust(poses, different, options);
+      solution = robust.solution;
+      result.used = std::move(robust.used);
+      break;
+    }
+    case PivotMethod::AlgebraicOneStep:
+      solution = solveOneStep(poses, different);
+      break;
+    case PivotMethod::AlgebraicTwoStep:
+      solution = solveTwoStep(poses, different);
+      break;
+    case PivotMethod::SphereFit:
+      solution = solveSphereFit(poses, different);
+      break;
+  }
+  result.tip_Stylus = solution.tip_Stylus;
+  result.pivot_Tracker = solution.pivot_Tracker;
+  result.tipCovariance = solution.tipCovariance;
+}
+
+/// Residuals of all poses, and what they come to over the used ones.
+void measureResiduals(const PivotPoses& poses, const TrackerNoise& noise, PivotCalibrationResult& result)
+{
+  const double length = result.tip_Stylus.norm();
+  const ResidualVariance expected = residualVariance(noise, length);
+  double sum = 0, squares = 0, whitened = 0;
+  std::size_t next = 0;
+  result.residualsMm.resize(poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    const Eigen::Vector3d lever = poses[i].linear() * result.tip_Stylus;
+    const Eigen::Vector3d residual = lever + poses[i].translation() - result.pivot_Tracker;
+    const double square = residual.squaredNorm(), size = std::sqrt(square);
+    result.residualsMm[i] = size;
+    if (next < result.used.size() && result.used[next] == int(i))
+    {
+      ++next;
+      const double along = length > 0 ? lever.dot(residual) / length : 0;
+      sum += size;
+      squares += square;
+      whitened += along * along / expected.along + (square - along * along) / expected.across;
+      result.maximumMm = std::max(result.maximumMm, size);
     }
   }
-  return kept;
+  const double count = double(result.used.size());
+  result.meanMm = sum / count;
+  result.rmsMm = std::sqrt(squares / count);
+  result.noiseFactor = std::sqrt(whitened / std::max(1.0, 3 * count - 6));
 }
 
-/// How far the tip moved between the two halves of the used poses: the difference of where it stood on average.
-double tipMotion(const Poses& poses, const PivotCalibrationResult& result)
+void measureRotation(const PivotPoses& poses, PivotCalibrationResult& result)
 {
-  Eigen::Vector3d halves[2] = { Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero() };
-  const std::size_t middle = result.used.size() / 2;
-  for (std::size_t k = 0; k < result.used.size(); ++k)
+  PivotSums sums;
+  for (int i : result.used)
   {
-    const double count = double(k < middle ? middle : result.used.size() - middle);
-    halves[k < middle ? 0 : 1] += poses[std::size_t(result.used[k])] * result.tip_Stylus / count;
+    sums.add(poses[std::size_t(i)]);
   }
-  return (halves[1] - halves[0]).norm();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(sums.spread());
+  result.rotationSpread = spread.eigenvalues().cwiseMax(0).cwiseSqrt();
+  result.weakAxis_Stylus = spread.eigenvectors().col(0);
+  const double along = result.tip_Stylus.dot(result.weakAxis_Stylus);
+  result.weakAxisDistanceMm = (result.tip_Stylus - along * result.weakAxis_Stylus).norm();
+  result.angularRange = leaningRange(poses, result.used, result.tip_Stylus);
 }
 
-void judge(PivotCalibrationResult& result, std::size_t poseCount, double tipMotionMm, const PivotCalibrationOptions& options)
+void listRejections(const std::vector<int>& different, PivotCalibrationResult& result)
 {
-  const double degrees = 180 / EIGEN_PI;
-  const double rejectedShare = double(result.rejected.size()) / double(poseCount);
-  if (result.rotationSpread(1) < options.minimumRotation)
+  std::set_difference(
+    different.begin(), different.end(), result.used.begin(), result.used.end(), std::back_inserter(result.rejected));
+  for (int i : result.rejected)
   {
-    result.status = Status::TooLittleRotation;
-    result.message = "the stylus was hardly turned (" + fixedDigits(result.rotationSpread(2) * degrees, 1) +
-      " deg at most): tilt it by 30 deg or more in all directions while its tip rests in the divot";
+    result.rejections.push_back({ i, PivotRejection::Reason::Disagrees, result.residualsMm[std::size_t(i)] });
   }
-  else if (result.rotationSpread(0) < options.minimumRotation)
+  for (int i : result.repeated)
   {
-    result.status = Status::RotationAboutOneAxis;
-    result.message = "the stylus was turned about one axis only: tilt it forwards and backwards as well as left and right";
+    result.rejections.push_back({ i, PivotRejection::Reason::Repeated, result.residualsMm[std::size_t(i)] });
   }
-  else if (rejectedShare > options.maximumRejectedShare)
+  std::sort(result.rejections.begin(), result.rejections.end(),
+    [](const PivotRejection& a, const PivotRejection& b) { return a.index < b.index; });
+}
+
+/// @return whether there are too few poses; the result then says so
+bool refuseCount(std::size_t different, const PivotCalibrationOptions& options, PivotCalibrationResult& result)
+{
+  if (int(different) >= options.minimumPoses)
   {
-    result.status = Status::TooManyRejected;
-    result.message = "no tip explains " + std::to_string(result.rejected.size()) + " of " + std::to_string(poseCount) +
-      " poses: the tip left its divot, or another tool was recorded";
+    return false;
   }
-  else if (!(result.tip_Stylus.norm() >= options.nearestTipMm && result.tip_Stylus.norm() <= options.furthestTipMm))
+  const std::string needed = ", at least " + std::to_string(options.minimumPoses) + " are needed";
+  if (result.repeated.empty())
   {
-    result.status = Status::ImplausibleTip;
-    result.message = "the tip came out " + fixedDigits(result.tip_Stylus.norm(), 1) + " mm from the marker, expected " +
-      fixedDigits(options.nearestTipMm, 0) + " to " + fixedDigits(options.furthestTipMm, 0) +
-      " mm: are the poses in mm, and do they map the stylus to the tracker?";
+    result.message = "only " + std::to_string(different) + " valid poses" + needed;
+    return true;
   }
-  else if (!(tipMotionMm <= options.maximumTipMotionMm))
-  {
-    result.status = Status::TipMoved;
-    result.message = "the tip moved by " + fixedDigits(tipMotionMm, 2) +
-      " mm between the first and the second half of the recording, more than the " + fixedDigits(options.maximumTipMotionMm, 1) +
-      " mm that a usable result allows: it slipped in the divot, or the divot moved";
-  }
-  else if (result.rmsMm > options.maximumRmsMm)
-  {
-    result.status = Status::TooNoisy;
-    result.message = "the tip moved by " + fixedDigits(result.rmsMm, 2) + " mm (RMS) while pivoting, more than the " +
-      fixedDigits(options.maximumRmsMm, 1) + " mm that a usable result allows";
-  }
-  else
-  {
-    result.status = Status::Ok;
-    result.message = "tip found with " + fixedDigits(result.rmsMm, 2) + " mm RMS over " + std::to_string(result.used.size()) +
-      " poses, " + std::to_string(result.rejected.size()) + " left out";
-  }
+  const std::size_t all = different + result.repeated.size();
+  result.status = int(all) >= options.minimumPoses ? Status::TooLittleRotation : Status::TooFewPoses;
+  result.message = "only " + std::to_string(different) + " of " + std::to_string(all) + " poses differ from one another" + needed +
+    ": the stylus was hardly turned, or the tracker repeated itself";
+  return true;
 }
 
 }  // namespace
@@ -175,66 +150,30 @@ void PivotCalibrationOptions::check() const
     throw std::invalid_argument(
       "pivot calibration options: at least 3 poses, a rejection factor above 1 and positive limits are expected");
   }
+  if (!(noise.positionMm > 0 && noise.rotation >= 0 && std::isfinite(noise.positionMm) && std::isfinite(noise.rotation)))
+  {
+    throw std::invalid_argument(
+      "pivot calibration options: a positive noise of the position (mm) and one of the rotation that is not negative are expected");
+  }
 }
 
-PivotCalibrationResult calibratePivot(const Poses& stylusToTracker, const PivotCalibrationOptions& options)
+PivotCalibrationResult calibratePivot(const PivotPoses& stylusToTracker, const PivotCalibrationOptions& options)
 {
   options.check();
-  for (const Eigen::Isometry3d& pose : stylusToTracker)
-  {
-    if (!pose.matrix().allFinite())
-    {
-      throw std::invalid_argument("pivot calibration: a pose holds a number that is not finite");
-    }
-  }
+  checkPoses(stylusToTracker);
   PivotCalibrationResult result;
-  if (int(stylusToTracker.size()) < options.minimumPoses)
+  result.method = options.method;
+  std::vector<int> different;
+  findRepeated(stylusToTracker, different, result.repeated);
+  if (refuseCount(different.size(), options, result))
   {
-    result.message = "only " + std::to_string(stylusToTracker.size()) + " valid poses, at least " +
-      std::to_string(options.minimumPoses) + " are needed";
     return result;
   }
-
-  NormalEquations solution = consensus(stylusToTracker);
-  result.residualsMm = residuals(stylusToTracker, solution);
-  result.used = inliers(result.residualsMm, options.rejectionFactor);
-  for (int round = 0; round < RejectionRounds; ++round)
-  {
-    solution = solve(stylusToTracker, result.used);
-    result.residualsMm = residuals(stylusToTracker, solution);
-    const std::vector<int> kept = inliers(result.residualsMm, options.rejectionFactor);
-    if (kept == result.used)
-    {
-      break;
-    }
-    result.used = kept;
-  }
-
-  result.tip_Stylus = solution.tip_Stylus;
-  result.pivot_Tracker = solution.pivot_Tracker;
-  double squares = 0;
-  for (int i = 0, next = 0; i < int(stylusToTracker.size()); ++i)
-  {
-    if (next < int(result.used.size()) && result.used[next] == i)
-    {
-      ++next;
-      squares += result.residualsMm[i] * result.residualsMm[i];
-      result.maximumMm = std::max(result.maximumMm, result.residualsMm[i]);
-    }
-    else
-    {
-      result.rejected.push_back(i);
-    }
-  }
-  const double count = double(result.used.size());
-  result.rmsMm = std::sqrt(squares / count);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(solution.matrix / count);
-  result.rotationSpread = spread.eigenvalues().cwiseMax(0).cwiseSqrt();
-  if (result.rotationSpread(0) > 0)
-  {
-    result.tipCovariance = squares / std::max(1.0, 3 * count - 6) * solution.matrix.inverse();
-  }
-  judge(result, stylusToTracker.size(), tipMotion(stylusToTracker, result), options);
+  solveBy(stylusToTracker, different, options, result);
+  measureResiduals(stylusToTracker, options.noise, result);
+  measureRotation(stylusToTracker, result);
+  listRejections(different, result);
+  judgePivot(stylusToTracker, different, options, result);
   return result;
 }
 
@@ -260,6 +199,27 @@ std::string toString(Status status)
       return "too_noisy";
   }
   return "unknown";
+}
+
+std::string toString(PivotMethod method)
+{
+  switch (method)
+  {
+    case PivotMethod::Robust:
+      return "robust";
+    case PivotMethod::AlgebraicOneStep:
+      return "algebraic-one-step";
+    case PivotMethod::AlgebraicTwoStep:
+      return "algebraic-two-step";
+    case PivotMethod::SphereFit:
+      return "sphere-fit";
+  }
+  return "unknown";
+}
+
+std::string toString(PivotRejection::Reason reason)
+{
+  return reason == PivotRejection::Reason::Repeated ? "repeated" : "disagrees";
 }
 
 }  // namespace handeye

@@ -18,6 +18,8 @@ struct PivotStepResult
   std::vector<int> usedFrames;
   std::vector<int> rejectedFrames;  ///< thrown out because they disagree
   std::vector<int> invalidFrames;   ///< not tracked
+  std::vector<int> repeatedFrames;  ///< the tracker repeated an earlier pose
+  std::vector<int> poseFrames;      ///< the frame of each valid pose
 };
 
 /// Pivot-calibrates a tool from all frames of a recording in which it is tracked.

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace handeye
 {
@@ -148,23 +149,55 @@ void addSolution(const HandEyeCalibrationResult& calibration, json& object)
   }
 }
 
+/// One row a frame: whether it was used, why not, and its residual.
+json pivotRows(const PivotStepResult& step)
+{
+  json rows = json::array();
+  std::size_t invalid = 0, rejection = 0;
+  const auto addInvalidBefore = [&](int frame)
+  {
+    for (; invalid < step.invalidFrames.size() && step.invalidFrames[invalid] < frame; ++invalid)
+    {
+      rows.push_back({ { "frame", step.invalidFrames[invalid] }, { "status", "not_tracked" }, { "used", false } });
+    }
+  };
+  const PivotCalibrationResult& calibration = step.calibration;
+  for (std::size_t i = 0; i < step.poseFrames.size() && i < calibration.residualsMm.size(); ++i)
+  {
+    addInvalidBefore(step.poseFrames[i]);
+    const bool isRejected = rejection < calibration.rejections.size() && calibration.rejections[rejection].index == int(i);
+    rows.push_back(
+      { { "frame", step.poseFrames[i] }, { "status", isRejected ? toString(calibration.rejections[rejection].reason) : "ok" },
+        { "used", !isRejected }, { "residualMm", calibration.residualsMm[i] } });
+    rejection += isRejected ? 1 : 0;
+  }
+  addInvalidBefore(std::numeric_limits<int>::max());
+  return rows;
+}
+
 }  // namespace
 
 json stylusJson(const PivotStepResult& step)
 {
   const PivotCalibrationResult& calibration = step.calibration;
   json object = result("stylus", toString(calibration.status), calibration.message);
+  object["method"] = toString(calibration.method);
   object["usedFrames"] = calibration.used.size();
   object["rejectedFrames"] = step.rejectedFrames;
   object["invalidFrames"] = step.invalidFrames;
+  object["repeatedFrames"] = step.repeatedFrames;
+  object["samples"] = pivotRows(step);
   if (calibration.isUsable())
   {
     object["tip_Stylus_Mm"] = toJson(calibration.tip_Stylus);
     object["pivot_Tracker_Mm"] = toJson(calibration.pivot_Tracker);
     object["rmsMm"] = calibration.rmsMm;
+    object["meanMm"] = calibration.meanMm;
     object["maxMm"] = calibration.maximumMm;
+    object["noiseFactor"] = calibration.noiseFactor;
     object["tipCovariance_Mm2"] = toJson(calibration.tipCovariance);
     object["rotationSpread_Rad"] = toJson(calibration.rotationSpread);
+    object["angularRange_Rad"] = toJson(calibration.angularRange);
   }
   return object;
 }
@@ -253,6 +286,28 @@ json phantomJson(const LandmarkRegistrationResult& registration)
     object["modelToPhantom"] = toJson(registration.modelToPhantom);
     object["rmsMm"] = registration.rmsMm;
     object["residualsMm"] = registration.residualsMm;
+    object["localizationErrorMm"] = registration.localizationErrorMm;
+    object["landmarkTreMm"] = registration.landmarkTreMm;
+    object["targetTreMm"] = registration.targetTreMm;
+  }
+  if (registration.worst >= 0)
+  {
+    object["worstLandmark"] = registration.worst + 1;
+    object["leftOut"] = json::array();
+    for (const LandmarkLeftOut& leftOut : registration.leftOut)
+    {
+      object["leftOut"].push_back({ { "rmsMm", leftOut.rmsMm }, { "missMm", leftOut.missMm } });
+    }
+  }
+  if (!registration.suggestedOrder.empty())
+  {
+    json order = json::array();
+    for (int touched : registration.suggestedOrder)
+    {
+      order.push_back(touched + 1);
+    }
+    object["suggestedOrder"] = order;
+    object["suggestedRmsMm"] = registration.suggestedRmsMm;
   }
   return object;
 }

@@ -36,6 +36,9 @@ Eigen::Vector3d readStylusTip(const std::filesystem::path& path);
 /// The tip's covariance (mm^2) of a stylus.json, zero where the file does not hold it. @throws io::FileError where it is none
 Eigen::Matrix3d readStylusTipCovariance(const std::filesystem::path& path);
 
+/// All of a stylus.json, to be written again with more in it. @throws io::FileError as readStylusTip()
+nlohmann::json readStylus(const std::filesystem::path& path);
+
 /// What later steps need of a calibration.json.
 struct StoredCalibration
 {

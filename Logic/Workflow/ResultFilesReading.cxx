@@ -139,6 +139,11 @@ Eigen::Matrix3d readStylusTipCovariance(const Path& path)
   return covariance;
 }
 
+json readStylus(const Path& path)
+{
+  return readResult(path, "tip_Stylus_Mm");
+}
+
 StoredCalibration readCalibration(const Path& path)
 {
   const json object = readResult(path, "markerToCamera");

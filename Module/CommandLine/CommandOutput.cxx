@@ -52,10 +52,15 @@ void CommandOutput::warn(const std::vector<std::string>& warnings) const
 
 int CommandOutput::finish(const nlohmann::json& result) const
 {
+  return this->finish(result, [&](const std::string& path) { writeJson(path, result); });
+}
+
+int CommandOutput::finish(const nlohmann::json& result, const std::function<void(const std::string&)>& write) const
+{
   const bool usable = result.at("status") == "ok";
   if (usable && !this->file.empty())
   {
-    writeJson(this->file, result);
+    write(this->file);
   }
   if (this->json)
   {

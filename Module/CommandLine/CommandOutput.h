@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ struct CommandOutput
   /// Prints and stores a result. A result whose status is not "ok" is printed but not stored, so that a good file is not lost.
   /// @return the exit code
   int finish(const nlohmann::json& result) const;
+
+  /// The same for a result that is stored otherwise. @param write is given the file's name
+  int finish(const nlohmann::json& result, const std::function<void(const std::string&)>& write) const;
 
   /// A line on standard error that counts frames, only if that is a terminal.
   Progress progress(const std::string& what) const;

@@ -17,6 +17,7 @@ enum ExitCode
 
 /// Each adds one command with its options to the program. Its callback runs the command and stores the exit code.
 void addPivotCommand(CLI::App& app, int& exitCode);
+void addSpinCommand(CLI::App& app, int& exitCode);
 void addCalibrateCommand(CLI::App& app, int& exitCode);
 void addValidateCommand(CLI::App& app, int& exitCode);
 void addDetectCommand(CLI::App& app, int& exitCode);

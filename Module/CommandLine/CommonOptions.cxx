@@ -99,6 +99,18 @@ void addSigmaOption(CLI::App& command, const std::string& option, double& sigma,
   command.add_option(option, sigma, what)->check(CLI::Validator(isSigma, std::string()))->capture_default_str();
 }
 
+void addPivotMethodOption(CLI::App& command, PivotMethod& method)
+{
+  std::map<std::string, PivotMethod> choices;
+  for (const PivotMethod choice :
+    { PivotMethod::Robust, PivotMethod::AlgebraicOneStep, PivotMethod::AlgebraicTwoStep, PivotMethod::SphereFit })
+  {
+    choices[toString(choice)] = choice;
+  }
+  addChoice<PivotMethod>(command, "--method", method, choices, toString(method),
+    "How the tip is found: robustly, or by a classical method that takes all poses");
+}
+
 void addCalibrationOption(CLI::App& command, std::string& calibration)
 {
   command.add_option("--calibration", calibration, "What `handeye calibrate` wrote")->required()->type_name("calibration.json");

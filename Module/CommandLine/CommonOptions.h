@@ -3,6 +3,7 @@
 #pragma once
 
 #include "BallDetection.h"
+#include "PivotCalibration.h"
 #include "PointLineRegistration.h"
 
 #include <CLI/CLI.hpp>
@@ -21,6 +22,7 @@ void addSegmentationOption(CLI::App& command, BallDetectionOptions::Method& meth
 void addSolverOption(CLI::App& command, PointLineOptions::Method& method);
 /// A standard deviation of at least 0.
 void addSigmaOption(CLI::App& command, const std::string& option, double& sigma, const std::string& what);
+void addPivotMethodOption(CLI::App& command, PivotMethod& method);
 void addCalibrationOption(CLI::App& command, std::string& calibration);
 
 /// @param what "stylus", "camera's marker", ...; an empty `name` is said to be the calibration's

@@ -47,6 +47,7 @@ int main(int argc, char** argv)
              "The usual way: pivot, calibrate, validate, landmarks, overlay. `handeye COMMAND --help` explains one.");
   int exitCode = Good;
   addPivotCommand(app, exitCode);
+  addSpinCommand(app, exitCode);
   addCalibrateCommand(app, exitCode);
   addValidateCommand(app, exitCode);
   addDetectCommand(app, exitCode);

@@ -38,6 +38,7 @@ TEST(PivotStep, Recording_GivesTipAndTheFramesItRestsOn)
   frames[3].transforms["StylusToTracker"].status = "INVALID";
   frames[50].transforms.clear();
   frames[80].transforms["StylusToTracker"].matrix->col(3).head<3>() += Eigen::Vector3d(20, 0, 0);
+  frames[101] = frames[100];
   const TemporaryFolder folder;
   const auto path = folder.path() / "pivot.igs.mha";
   SimulatedSession::writeTracking(path, frames);
@@ -47,7 +48,9 @@ TEST(PivotStep, Recording_GivesTipAndTheFramesItRestsOn)
   EXPECT_EQ(result.invalidFrames, (std::vector<int>{ 3, 50 }));
   EXPECT_EQ(std::count(result.rejectedFrames.begin(), result.rejectedFrames.end(), 80), 1)
     << "a frame, not an index of valid poses";
-  EXPECT_EQ(result.usedFrames.size() + result.rejectedFrames.size() + result.invalidFrames.size(), 120U);
+  EXPECT_EQ(result.repeatedFrames, (std::vector<int>{ 101 }));
+  EXPECT_EQ(result.poseFrames.size(), 118U);
+  EXPECT_EQ(result.usedFrames.size() + result.rejectedFrames.size() + result.invalidFrames.size(), 119U);
   EXPECT_EQ(result.usedFrames.back(), 119);
 }
 

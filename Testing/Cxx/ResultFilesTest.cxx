@@ -69,6 +69,40 @@ TEST(ResultFiles, Stylus_HasTheKeysOfTheContract)
   EXPECT_EQ(object["rejectedFrames"], json({ 7, 9 }));
 }
 
+TEST(ResultFiles, StylusSamples_SayOfEachFrameWhyItWasNotUsed)
+{
+  Random random(3);
+  std::vector<Eigen::Isometry3d> poses = PivotSimulation().recordPivoting(60, 35 * Degree, random);
+  poses[10].translation().x() += 30;
+  poses[20] = poses[19];
+  PivotStepResult step;
+  step.calibration = calibratePivot(poses);
+  step.invalidFrames = { 0, 31, 61 };
+  for (int pose = 0; pose < 60; ++pose)
+  {
+    step.poseFrames.push_back(pose < 30 ? pose + 1 : pose + 2);
+  }
+  step.poseFrames.back() = 62;
+  const json object = stylusJson(step);
+  expectKeys(object, { "method", "meanMm", "angularRange_Rad", "noiseFactor", "repeatedFrames", "samples" });
+  EXPECT_EQ(object["method"], "robust");
+  EXPECT_LT(object["meanMm"].get<double>(), object["rmsMm"].get<double>());
+  ASSERT_EQ(object["samples"].size(), 63U);
+  const auto status = [&](std::size_t row) { return object["samples"][row]["status"]; };
+  for (std::size_t row = 0; row < 63; ++row)
+  {
+    EXPECT_EQ(object["samples"][row]["frame"], row);
+    EXPECT_EQ(object["samples"][row]["used"], status(row) == "ok");
+    EXPECT_EQ(object["samples"][row].contains("residualMm"), status(row) != "not_tracked");
+  }
+  EXPECT_EQ(status(0), "not_tracked");
+  EXPECT_EQ(status(31), "not_tracked");
+  EXPECT_EQ(status(61), "not_tracked");
+  EXPECT_EQ(status(11), "disagrees");
+  EXPECT_EQ(status(21), "repeated");
+  EXPECT_GT(object["samples"][11]["residualMm"].get<double>(), 20);
+}
+
 TEST(ResultFiles, StylusThatIsNotUsable_HasNoTip)
 {
   const json object = stylusJson(pivot(0.5 * Degree));
