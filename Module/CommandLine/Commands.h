@@ -23,5 +23,7 @@ void addDetectCommand(CLI::App& app, int& exitCode);
 void addRegisterCommand(CLI::App& app, int& exitCode);
 void addLandmarksCommand(CLI::App& app, int& exitCode);
 void addOverlayCommand(CLI::App& app, int& exitCode);
+void addExportCommand(CLI::App& app, int& exitCode);
+void addCameraConvertCommand(CLI::App& app, int& exitCode);
 
 }  // namespace handeye::cli

@@ -53,6 +53,8 @@ int main(int argc, char** argv)
   addRegisterCommand(app, exitCode);
   addLandmarksCommand(app, exitCode);
   addOverlayCommand(app, exitCode);
+  addExportCommand(app, exitCode);
+  addCameraConvertCommand(app, exitCode);
   try
   {
     app.parse(argc, argv);
