@@ -25,5 +25,7 @@ void addLandmarksCommand(CLI::App& app, int& exitCode);
 void addOverlayCommand(CLI::App& app, int& exitCode);
 void addExportCommand(CLI::App& app, int& exitCode);
 void addCameraConvertCommand(CLI::App& app, int& exitCode);
+void addSimulateCommand(CLI::App& app, int& exitCode);
+void addRecordCommand(CLI::App& app, int& exitCode);
 
 }  // namespace handeye::cli

@@ -55,6 +55,8 @@ int main(int argc, char** argv)
   addOverlayCommand(app, exitCode);
   addExportCommand(app, exitCode);
   addCameraConvertCommand(app, exitCode);
+  addSimulateCommand(app, exitCode);
+  addRecordCommand(app, exitCode);
   try
   {
     app.parse(argc, argv);
