@@ -7,7 +7,6 @@
 #include <igtl_image.h>
 #include <igtl_tdata.h>
 #include <igtl_transform.h>
-#include <igtl_util.h>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -57,8 +56,8 @@ template<std::size_t Size> void copyName(const std::string& name, char (&field)[
 std::uint64_t toTimestamp(double timeSec)
 {
   const double whole = std::floor(timeSec);
-  const auto nanoseconds = std::min(std::int64_t(999999999), std::int64_t(std::llround((timeSec - whole) * 1e9)));
-  return (std::uint64_t(whole) << 32) | igtl_nanosec_to_frac(igtl_uint32(nanoseconds));
+  const double fraction = std::floor((timeSec - whole) * 4294967296.0);  // of 1/2^32 s, exactly
+  return (std::uint64_t(whole) << 32) | std::uint64_t(fraction);
 }
 
 void toColumns(const Eigen::Matrix4d& matrix, float* columns)

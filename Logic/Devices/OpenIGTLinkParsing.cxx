@@ -11,7 +11,6 @@
 #include <igtl_string.h>
 #include <igtl_tdata.h>
 #include <igtl_transform.h>
-#include <igtl_util.h>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -381,7 +380,7 @@ std::optional<MessageHeader> parseHeader(const std::array<std::uint8_t, HeaderBy
     return std::nullopt;
   }
   const std::uint64_t timestamp = raw.timestamp;
-  header.timeSec = double(timestamp >> 32) + 1e-9 * igtl_frac_to_nanosec(igtl_uint32(timestamp & 0xFFFFFFFFU));
+  header.timeSec = double(timestamp >> 32) + double(timestamp & 0xFFFFFFFFU) / 4294967296.0;
   header.bodyBytes = raw.body_size;
   header.crc = raw.crc;
   return header;

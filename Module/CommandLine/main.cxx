@@ -57,6 +57,9 @@ int main(int argc, char** argv)
   addCameraConvertCommand(app, exitCode);
   addSimulateCommand(app, exitCode);
   addRecordCommand(app, exitCode);
+  addCaptureCommand(app, exitCode);
+  addStreamsCommand(app, exitCode);
+  addLatencyCommand(app, exitCode);
   try
   {
     app.parse(argc, argv);
