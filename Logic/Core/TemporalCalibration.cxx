@@ -158,6 +158,17 @@ Parabola parabolaThrough(const Eigen::VectorXd& offsetsSec, const Eigen::VectorX
   return parabola;
 }
 
+/// How many times larger the mean squared residual is a tenth of a second off. Where the ball rests, none: noise alone gives the cost a
+/// shape, since poses between two of the tracker's are averages with less noise.
+double growthOf(const Problem& problem, double latencySec, const std::vector<std::size_t>& sightings)
+{
+  constexpr double AwaySec = 0.1;
+  const double here = problem.fitAt(latencySec, sightings).meanSquare();
+  const double earlier = problem.fitAt(latencySec - AwaySec, sightings).meanSquare();
+  const double later = problem.fitAt(latencySec + AwaySec, sightings).meanSquare();
+  return std::min(earlier, later) / std::max(here, 1e-12);
+}
+
 void checkInput(const std::vector<BallSighting>& sightings)
 {
   for (std::size_t i = 0; i < sightings.size(); ++i)
@@ -273,6 +284,11 @@ TemporalCalibrationResult calibrateLatency(const std::vector<BallSighting>& sigh
   result.sigmaSec = std::sqrt(varianceOfOne / (parabola.curvature * count));
   result.rmsPx = std::sqrt(parabola.lowest);
   result.usedCount = int(good.size());
+  constexpr double LeastGrowth = 2;
+  if (growthOf(problem, center, good) < LeastGrowth)
+  {
+    return refused(result, Result::Status::TooLittleMotion, "the ball did not move enough: other latencies fit nearly as well");
+  }
   if (!(result.sigmaSec < options.maximumSigmaSec))
   {
     return refused(result, Result::Status::TooLittleMotion,

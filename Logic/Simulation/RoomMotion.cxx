@@ -87,8 +87,9 @@ Eigen::Isometry3d RoomScript::markerToTracker(double timeSec) const
   Eigen::Isometry3d sway = Eigen::Isometry3d::Identity();
   if (options_.cameraMoves)
   {
-    sway = rigid({ 0.012 * wave(timeSec, 4.1, 0), 0.015 * wave(timeSec, 5.3, 1), 0.01 * wave(timeSec, 3.7, 2) },
-      { 2 * wave(timeSec, 4.7, 0), 2.5 * wave(timeSec, 3.9, 1), 2 * wave(timeSec, 6.1, 2) });
+    // Two hands hold it as still as they can.
+    sway = rigid({ 0.002 * wave(timeSec, 4.1, 0), 0.0025 * wave(timeSec, 5.3, 1), 0.002 * wave(timeSec, 3.7, 2) },
+      { 0.5 * wave(timeSec, 4.7, 0), 0.6 * wave(timeSec, 3.9, 1), 0.5 * wave(timeSec, 6.1, 2) });
   }
   const Eigen::Isometry3d movedToTracker = cameraToTracker_ * sway;
   return movedToTracker * options_.markerToCamera;

@@ -54,8 +54,8 @@ nlohmann::json describe(const devices::DeviceSample& sample)
     object["channels"] = image.channels();
     object["bits"] = image.depth() == CV_8U ? 8 : 16;
     object["imageToReference"] = toJson(frame->imageToReference);
-    const cv::Mat first = image(cv::Rect(0, 0, std::min(image.cols, 4), 1)).reshape(1);
-    object["firstPixels"] = std::vector<int>(cv::Mat_<int>(first).begin(), cv::Mat_<int>(first).end());
+    const cv::Mat1i first = image(cv::Rect(0, 0, std::min(image.cols, 4), 1)).clone().reshape(1);
+    object["firstPixels"] = std::vector<int>(first.begin(), first.end());
   }
   else if (const devices::DeviceText* text = sample.text())
   {

@@ -4,9 +4,10 @@
 
 pyigtl_serves.py HANDEYE
 """
+import json
+import os
 import subprocess
 import sys
-import json
 import time
 
 import numpy as np
@@ -33,10 +34,10 @@ placing = np.eye(4)
 placing[:3, :3] = turn * np.array([0.5, 0.25, 2.0])
 placing[:3, 3] = [7, -8, 9]
 
+# pyigtl 0.3.4 packs POSITION as a list of points, 152 bytes each, which is not the protocol's: that type is compared with libopenigtlink.
 messages = [
     pyigtl.TransformMessage(pose, device_name="StylusToTracker", timestamp=1234.5),
     pyigtl.TransformMessage(np.eye(4), device_name="MarkerToTracker", timestamp=1234.5),
-    pyigtl.PositionMessage([[1.5, 2.5, -3.5]], device_name="TipToTracker", timestamp=1234.5),
     pyigtl.ImageMessage(image, ijk_to_world_matrix=placing, device_name="Video", timestamp=1234.5),
     pyigtl.ImageMessage(grey, ijk_to_world_matrix=placing, world_coordinate_system="ras", device_name="Grey", timestamp=1234.5),
     pyigtl.StringMessage("pivot begins", device_name="Phase", timestamp=1234.5),
@@ -57,9 +58,9 @@ while client.poll() is None and time.time() < deadline:
         # Times go on, so that the client sees its second pass; the values stay.
         for message in messages:
             message.timestamp = 1234.5 + 0.25 * index
-            server.send_message(message, wait=True)
+            server.send_message(message, wait=False)  # waiting would never end once the client has gone
         index += 1
-    time.sleep(0.02)
+    time.sleep(0.1)
 output = client.communicate(timeout=20)[0]
 assert client.returncode == 0, output
 streams = {stream["name"]: stream for stream in json.loads(output)["streams"]}
@@ -75,7 +76,6 @@ def expect(what, found, expected, tolerance=0.0):
 
 expect("StylusToTracker", streams["StylusToTracker"]["matrix"], pose)
 assert streams["StylusToTracker"]["isValid"]
-expect("TipToTracker", np.array(streams["TipToTracker"]["matrix"])[:3, 3], [1.5, 2.5, -3.5])
 assert not streams["HiddenToTracker"]["isValid"] and streams["HiddenToTracker"]["metadata"]["Tool"] == "wand"
 expect("HiddenToTracker's numbers", streams["HiddenToTracker"]["matrix"], pose)
 assert streams["Phase"]["text"] == "pivot begins"
@@ -87,4 +87,5 @@ expect("Grey's first pixels", streams["Grey"]["firstPixels"], grey[0, 0, :])
 lps_to_ras = np.diag([-1, -1, 1, 1])
 expect("Video's first pixel in RAS", video["imageToReference"], lps_to_ras @ placing, 1e-5)  # float32, through the centre
 expect("Grey's first pixel in RAS", streams["Grey"]["imageToReference"], placing, 1e-5)
-server.stop()
+sys.stdout.flush()
+os._exit(0)  # pyigtl's threads wait for a client that has gone
