@@ -131,6 +131,7 @@ void addCalibrateCommand(CLI::App& app, int& exitCode)
     "--keep-all", arguments->keepAll, "Use all samples, also those that disagree with the rest (as the paper does)");
   addTransformOption(*command, "--stylus-transform", arguments->tools.stylusToTracker, "stylus");
   addTransformOption(*command, "--marker-transform", arguments->tools.markerToTracker, "camera's marker");
+  addLatencyOption(*command, arguments->tools.latencySec);
   CLI::Option* right = command->add_option("--right", arguments->rightRecording, "Capture of the right eye of a stereo rig");
   right->type_name("RECORDING");
   CLI::Option* rightCamera =

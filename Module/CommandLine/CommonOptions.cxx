@@ -80,6 +80,16 @@ void addSolverOption(CLI::App& command, PointLineOptions::Method& method)
     "How points are brought onto lines: to the global minimum, or by the paper's iteration");
 }
 
+void addLatencyOption(CLI::App& command, double& latencySec)
+{
+  const auto store = [&latencySec](const double& latencyMs) { latencySec = latencyMs / 1000; };
+  command
+    .add_option_function<double>(
+      "--latency", store, "The poses of an image are those at its time plus this, ms; see `handeye latency`")
+    ->check(CLI::Range(-10000.0, 10000.0))
+    ->type_name("MS");
+}
+
 void addCalibrationOption(CLI::App& command, std::string& calibration)
 {
   command.add_option("--calibration", calibration, "What `handeye calibrate` wrote")->required()->type_name("calibration.json");

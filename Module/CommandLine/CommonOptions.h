@@ -19,6 +19,8 @@ void addCameraOption(CLI::App& command, std::string& camera);
 void addBallRadiusOption(CLI::App& command, double& ballRadiusMm);
 void addSegmentationOption(CLI::App& command, BallDetectionOptions::Method& method);
 void addSolverOption(CLI::App& command, PointLineOptions::Method& method);
+/// `--latency MS`, in milliseconds; `latencySec` is in seconds.
+void addLatencyOption(CLI::App& command, double& latencySec);
 void addCalibrationOption(CLI::App& command, std::string& calibration);
 
 /// @param what "stylus", "camera's marker", ...; an empty `name` is said to be the calibration's
