@@ -115,7 +115,7 @@ private:
   std::optional<Eigen::Isometry3d> markerToCamera_;
 };
 
-Result refused(Result result, Result::Status status, const std::string& message)
+Result concluded(Result result, Result::Status status, const std::string& message)
 {
   result.status = status;
   result.message = message;
@@ -158,8 +158,8 @@ Parabola parabolaThrough(const Eigen::VectorXd& offsetsSec, const Eigen::VectorX
   return parabola;
 }
 
-/// How many times larger the mean squared residual is a tenth of a second off. Where the ball rests, none: noise alone gives the cost a
-/// shape, since poses between two of the tracker's are averages with less noise.
+/// How many times larger the mean squared residual is a tenth of a second off. About once where the ball rests: noise alone gives
+/// the cost a shape, since poses between two of the tracker's are averages with less noise.
 double growthOf(const Problem& problem, double latencySec, const std::vector<std::size_t>& sightings)
 {
   constexpr double AwaySec = 0.1;
@@ -167,6 +167,77 @@ double growthOf(const Problem& problem, double latencySec, const std::vector<std
   const double earlier = problem.fitAt(latencySec - AwaySec, sightings).meanSquare();
   const double later = problem.fitAt(latencySec + AwaySec, sightings).meanSquare();
   return std::min(earlier, later) / std::max(here, 1e-12);
+}
+
+/// The same sightings at every fine step: those with poses on all of the way.
+std::vector<std::size_t> trackedAround(const Problem& problem, double latencySec, const std::vector<std::size_t>& sightings)
+{
+  std::vector<std::size_t> tracked;
+  for (std::size_t sighting : sightings)
+  {
+    bool isTracked = true;
+    for (int step = -FineSteps - 2; step <= FineSteps + 2; ++step)
+    {
+      isTracked = isTracked && problem.tip_Marker(sighting, latencySec + step * FineStepSec).has_value();
+    }
+    if (isTracked)
+    {
+      tracked.push_back(sighting);
+    }
+  }
+  return tracked;
+}
+
+/// The latency by two parabolas, one around the other's minimum, and its uncertainty; an infinite one where there is no minimum.
+void refine(const Problem& problem, double coarseSec, const std::vector<std::size_t>& good, Result& result)
+{
+  double center = coarseSec;
+  Parabola parabola;
+  result.sigmaSec = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < 2; ++round)
+  {
+    Eigen::VectorXd offsetsSec(2 * FineSteps + 1), costs(2 * FineSteps + 1);
+    for (int step = -FineSteps; step <= FineSteps; ++step)
+    {
+      offsetsSec(step + FineSteps) = step * FineStepSec;
+      costs(step + FineSteps) = problem.fitAt(center + step * FineStepSec, good).meanSquare();
+    }
+    parabola = parabolaThrough(offsetsSec, costs);
+    if (!(parabola.curvature > 0) || !costs.allFinite())
+    {
+      return;
+    }
+    center += std::clamp(parabola.minimumSec, -2 * FineStepSec, 2 * FineStepSec);
+  }
+  const double count = double(good.size());
+  const double varianceOfOne = parabola.lowest * count / (2 * count - 7);  // per axis of a residual, px^2
+  result.latencySec = center;
+  result.sigmaSec = std::sqrt(varianceOfOne / (parabola.curvature * count));
+  result.rmsPx = std::sqrt(parabola.lowest);
+  result.usedCount = int(good.size());
+}
+
+Result judged(const Result& result, double growth, const TemporalCalibrationOptions& options)
+{
+  constexpr double LeastGrowth = 2;
+  if (!std::isfinite(result.sigmaSec) || growth < LeastGrowth)
+  {
+    return concluded(result, Result::Status::TooLittleMotion, "the ball did not move enough: other latencies fit nearly as well");
+  }
+  if (!(result.sigmaSec < options.maximumSigmaSec))
+  {
+    return concluded(result, Result::Status::TooLittleMotion,
+      "the latency is known to " + inMs(result.sigmaSec, 1) + " only: move the ball faster, for longer, over more of the view");
+  }
+  if (result.rmsPx > options.maximumRmsPx)
+  {
+    return concluded(result, Result::Status::PoorFit,
+      "video and tracker disagree by " + fixedDigits(result.rmsPx, 1) +
+        " px whatever the latency: are camera, stylus and ball the right ones?");
+  }
+  return concluded(result, Result::Status::Ok,
+    "the poses of a frame are those " + inMs(std::abs(result.latencySec), 1) + (result.latencySec < 0 ? " before" : " after") +
+      " its time, +- " + inMs(result.sigmaSec, 1));
 }
 
 void checkInput(const std::vector<BallSighting>& sightings)
@@ -182,7 +253,8 @@ void checkInput(const std::vector<BallSighting>& sightings)
   }
 }
 
-/// The latency of the coarse steps with the smallest cost, and its fit; steps at which too many sightings have no poses do not count.
+/// The latency of the coarse steps with the smallest cost, and its fit; steps at which too many sightings have no poses do not
+/// count.
 std::pair<double, Fit> coarseMinimum(const Problem& problem, std::size_t count, const TemporalCalibrationOptions& options)
 {
   std::vector<std::size_t> all(count);
@@ -226,83 +298,30 @@ TemporalCalibrationResult calibrateLatency(const std::vector<BallSighting>& sigh
   checkInput(sightings);
   const Problem problem(sightings, marker, stylus, tip_Stylus, (camera.fx() + camera.fy()) / 2, markerToCamera);
   Result result;
-  double center = 0;
-  std::vector<std::size_t> good;
+  const auto [coarseSec, fit] = coarseMinimum(problem, sightings.size(), options);
+  if (fit.residualsPx.empty())
   {
-    const auto [coarseSec, fit] = coarseMinimum(problem, sightings.size(), options);
-    if (fit.residualsPx.empty())
-    {
-      return refused(result, Result::Status::TooFewSightings,
-        "at least " + std::to_string(options.minimumSightings) +
-          " frames in which the ball is found and both tools are tracked are needed; " + "there are " +
-          std::to_string(sightings.size()) + " with the ball");
-    }
-    if (std::abs(coarseSec) > options.maximumLatencySec - CoarseStepSec / 2)
-    {
-      return refused(result, Result::Status::AtLimit,
-        "the latency is beyond " + inMs(options.maximumLatencySec, 0) + ", or the ball did not move: it was looked for no further");
-    }
-    center = coarseSec;
-    good = withoutOutliers(fit);
-    result.rejectedCount = int(fit.sightings.size() - good.size());
+    return concluded(result, Result::Status::TooFewSightings,
+      "at least " + std::to_string(options.minimumSightings) +
+        " frames in which the ball is found and both tools are tracked are needed; there are " + std::to_string(sightings.size()) +
+        " with the ball");
   }
-  // The same sightings at every fine step: those with poses on all of the way.
-  const auto isTracked = [&](std::size_t sighting, double latencySec)
-  { return problem.tip_Marker(sighting, latencySec).has_value(); };
-  const double reachSec = (FineSteps + 2) * FineStepSec;
-  good.erase(std::remove_if(good.begin(), good.end(),
-               [&](std::size_t sighting) {
-                 return !isTracked(sighting, center - reachSec) || !isTracked(sighting, center) ||
-                   !isTracked(sighting, center + reachSec);
-               }),
-    good.end());
+  if (std::abs(coarseSec) > options.maximumLatencySec - CoarseStepSec / 2)
+  {
+    return concluded(result, Result::Status::AtLimit,
+      "the latency is beyond " + inMs(options.maximumLatencySec, 0) + ", or the ball did not move: it was looked for no further");
+  }
+  const std::vector<std::size_t> agreeing = withoutOutliers(fit);
+  const std::vector<std::size_t> good = trackedAround(problem, coarseSec, agreeing);
+  result.rejectedCount = int(fit.sightings.size() - agreeing.size());
   if (int(good.size()) < options.minimumSightings)
   {
-    return refused(result, Result::Status::TooFewSightings,
+    return concluded(result, Result::Status::TooFewSightings,
       std::to_string(good.size()) + " frames agree and are tracked; at least " + std::to_string(options.minimumSightings) +
         " are needed");
   }
-  Parabola parabola;
-  for (int round = 0; round < 2; ++round)
-  {
-    Eigen::VectorXd offsetsSec(2 * FineSteps + 1), costs(2 * FineSteps + 1);
-    for (int step = -FineSteps; step <= FineSteps; ++step)
-    {
-      offsetsSec(step + FineSteps) = step * FineStepSec;
-      costs(step + FineSteps) = problem.fitAt(center + step * FineStepSec, good).meanSquare();
-    }
-    parabola = parabolaThrough(offsetsSec, costs);
-    if (!(parabola.curvature > 0) || !costs.allFinite())
-    {
-      return refused(result, Result::Status::TooLittleMotion, "the ball did not move enough: every latency fits as well");
-    }
-    center += std::clamp(parabola.minimumSec, -2 * FineStepSec, 2 * FineStepSec);
-  }
-  const double count = double(good.size());
-  const double varianceOfOne = parabola.lowest * count / (2 * count - 7);  // per axis of a residual, px^2
-  result.latencySec = center;
-  result.sigmaSec = std::sqrt(varianceOfOne / (parabola.curvature * count));
-  result.rmsPx = std::sqrt(parabola.lowest);
-  result.usedCount = int(good.size());
-  constexpr double LeastGrowth = 2;
-  if (growthOf(problem, center, good) < LeastGrowth)
-  {
-    return refused(result, Result::Status::TooLittleMotion, "the ball did not move enough: other latencies fit nearly as well");
-  }
-  if (!(result.sigmaSec < options.maximumSigmaSec))
-  {
-    return refused(result, Result::Status::TooLittleMotion,
-      "the latency is known to " + inMs(result.sigmaSec, 1) + " only: move the ball faster, for longer, over more of the view");
-  }
-  if (result.rmsPx > options.maximumRmsPx)
-  {
-    return refused(result, Result::Status::PoorFit,
-      "video and tracker disagree by " + fixedDigits(result.rmsPx, 1) +
-        " px whatever the latency: are camera, stylus and ball the right ones?");
-  }
-  return refused(result, Result::Status::Ok,
-    "the poses of a frame are those " + inMs(std::abs(center), 1) + (center < 0 ? " before" : " after") + " its time, +- " +
-      inMs(result.sigmaSec, 1));
+  refine(problem, coarseSec, good, result);
+  return judged(result, growthOf(problem, result.latencySec, good), options);
 }
 
 std::string toString(TemporalCalibrationResult::Status status)

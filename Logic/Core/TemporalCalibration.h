@@ -60,13 +60,18 @@ struct TemporalCalibrationResult
 ///
 ///     tip_Marker(t) = inverse(markerToTracker(t)) * stylusToTracker(t) * tip_Stylus
 ///
-/// must lie on the ray of the frame at t - latency. For each latency that is tried, the points tip_Marker are registered to the rays
-/// (see registerPointsToLines()), or mapped by `markerToCamera` where that is known; what remains, in px, is smallest at the right one.
-/// The minimum is refined by a parabola c0 + k (latency - minimum)^2 of the mean squared residual of n sightings; with s the scatter of a
-/// residual per axis, the uncertainty is sigma = s / sqrt(k n). A latency and a hand-eye calibration do not disturb each other: the registration is free.
+/// must lie on the ray of the frame at t - latency. For each latency that is tried, the points tip_Marker are registered to the
+/// rays
+/// (see registerPointsToLines()), or mapped by `markerToCamera` where that is known; what remains, in px, is smallest at the right
+/// one.
+/// The minimum is refined by a parabola c0 + k (latency - minimum)^2 of the mean squared residual of n sightings; with s the
+/// scatter of a
+/// residual per axis, the uncertainty is sigma = s / sqrt(k n). A latency and a hand-eye calibration do not disturb each other:
+/// the registration is free.
 ///
 /// @param sightings in any order
-/// @param marker,stylus the tools' poses by the tracker's clock, at full rate, spanning the sightings by the largest latency where they can
+/// @param marker,stylus the tools' poses by the tracker's clock, at full rate, spanning the sightings by the largest latency where
+/// they can
 /// @param camera its focal length turns angles into px
 /// @throws std::invalid_argument for numbers that are not finite, or distances that are not positive
 /// Thread-safe.

@@ -19,7 +19,8 @@ struct FramePairingOptions
 {
   std::vector<std::string> toolNames;  ///< "StylusToTracker", ...; empty: every tool that was seen
   std::string imageName;               ///< of the video; empty: any
-  /// The poses belong to an image at its own time plus this. Positive: the tracker's times run ahead of (are later than) the video's.
+  /// The poses belong to an image at its own time plus this. Positive: the tracker's times run ahead of (are later than) the
+  /// video's.
   double latencySec = 0;
   double maximumWaitSec = 0.3;      ///< stream time that an image waits for poses on both sides of it
   std::size_t maximumWaiting = 60;  ///< images that wait; more, and the oldest goes as it is
@@ -38,7 +39,8 @@ struct PairedFrame
 /// Brings images and poses together by time and not by the order in which they arrive: the poses of a frame are interpolated at the
 /// frame's time plus the latency, as soon as poses from both sides of that moment have come.
 ///
-/// Times of one server are by one clock. Of a source with another clock (a camera beside a tracker's server), map the times first, see
+/// Times of one server are by one clock. Of a source with another clock (a camera beside a tracker's server), map the times first,
+/// see
 /// ClockOffset.
 ///
 /// Not safe to share between threads.
@@ -73,7 +75,8 @@ private:
   std::uint64_t refused_ = 0, clockJumps_ = 0;
 };
 
-/// How far a source's clock is from this computer's: the smallest of (received - measured) over the last samples, since transport can
+/// How far a source's clock is from this computer's: the smallest of (received - measured) over the last samples, since transport
+/// can
 /// only delay.
 class ClockOffset
 {

@@ -35,7 +35,8 @@ struct LiveCaptureOptions
 ///
 ///     tip_Marker = inverse(markerToTracker) * stylusToTracker * tip_Stylus,
 ///
-/// with the poses of the frame's own moment. A frame of which a tool was not seen, or whose poses are stale or too far apart in time,
+/// with the poses of the frame's own moment. A frame of which a tool was not seen, or whose poses are stale or too far apart in
+/// time,
 /// begins the window anew; why is said.
 ///
 /// Not safe to share between threads.

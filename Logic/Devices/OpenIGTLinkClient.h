@@ -26,10 +26,12 @@ struct OpenIGTLinkClientOptions
   void check() const;
 };
 
-/// Receives what an OpenIGTLink server (PLUS, 3D Slicer, `handeye simulate`) sends: TRANSFORM, TDATA, QTDATA, POSITION, IMAGE, STATUS and
+/// Receives what an OpenIGTLink server (PLUS, 3D Slicer, `handeye simulate`) sends: TRANSFORM, TDATA, QTDATA, POSITION, IMAGE,
+/// STATUS and
 /// STRING of protocol 1 to 3. Other types are skipped. One client per server; several at once are several clients.
 ///
-/// A server that is not there, vanishes or sends what is no OpenIGTLink is tried again every half second until stop(); the status says
+/// A server that is not there, vanishes or sends what is no OpenIGTLink is tried again every half second until stop(); the status
+/// says
 /// what is the matter. A damaged message is counted and left out, the ones after it are taken.
 class OpenIGTLinkClient : public Source
 {

@@ -15,7 +15,8 @@
 namespace handeye::devices
 {
 
-/// OpenIGTLink's messages (protocol 1 to 3) as bytes; the structures and byte orders are libopenigtlink's. What comes from a network is
+/// OpenIGTLink's messages (protocol 1 to 3) as bytes; the structures and byte orders are libopenigtlink's. What comes from a
+/// network is
 /// checked before it is looked at: every size and count against the bytes that are there, names that need not end in a zero, the
 /// checksum, numbers that are not finite. Nothing here trusts the sender.
 /// Reference: http://openigtlink.org/protocols/v3_header.html and the pages beside it.
@@ -53,7 +54,8 @@ struct ParsedMessage
   bool isKnownType = true;
 };
 
-/// The content of a message: TRANSFORM, TDATA, QTDATA, POSITION, IMAGE, STATUS, STRING. Numbers go through float32, as the protocol has
+/// The content of a message: TRANSFORM, TDATA, QTDATA, POSITION, IMAGE, STATUS, STRING. Numbers go through float32, as the
+/// protocol has
 /// them. A pose that is not a rigid motion, or whose metadata say `TransformStatus` other than OK, is kept as not valid.
 /// @param body header.bodyBytes bytes; changed (byte order)
 [[nodiscard]] ParsedMessage parseBody(const MessageHeader& header, std::uint8_t* body, FramePool& pool);

@@ -25,7 +25,8 @@ struct OpenIGTLinkServerOptions
   std::size_t maximumQueueBytes = std::size_t(64) << 20;  ///< of one client; one that does not keep up loses the oldest messages
 };
 
-/// Sends messages to whoever connects, over OpenIGTLink. It listens from construction to destruction, and nothing else in this program
+/// Sends messages to whoever connects, over OpenIGTLink. It listens from construction to destruction, and nothing else in this
+/// program
 /// listens. What clients send is read and thrown away.
 ///
 /// send() may be called from any thread.

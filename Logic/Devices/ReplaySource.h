@@ -24,8 +24,10 @@ struct ReplayOptions
   void check() const;
 };
 
-/// Plays a recording (sequence metafile, or folder) as if it were live: each frame's poses and then its image, with the frame's time.
-/// A pose that the recording says is not valid is delivered as not valid. Ends with the state Finished, unless it loops. A recording
+/// Plays a recording (sequence metafile, or folder) as if it were live: each frame's poses and then its image, with the frame's
+/// time.
+/// A pose that the recording says is not valid is delivered as not valid. Ends with the state Finished, unless it loops. A
+/// recording
 /// that cannot be read says so in the status.
 class ReplaySource : public Source
 {

@@ -18,7 +18,8 @@ struct SampleBufferOptions
 {
   std::size_t maximumCount = 4096;
   std::size_t maximumBytes = std::size_t(256) << 20;
-  /// What happens when it is full: the oldest samples give way (a live source must not wait), or push() waits for room (a file can).
+  /// What happens when it is full: the oldest samples give way (a live source must not wait), or push() waits for room (a file
+  /// can).
   bool waitsForRoom = false;
 };
 

@@ -35,7 +35,8 @@ private:
   int ends_[2] = { -1, -1 };
 };
 
-/// A TCP socket of which no call waits without a limit. (libopenigtlink's own waits for a connection as long as the system likes, and
+/// A TCP socket of which no call waits without a limit. (libopenigtlink's own waits for a connection as long as the system likes,
+/// and
 /// cannot be woken.)
 class Socket
 {

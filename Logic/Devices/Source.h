@@ -45,7 +45,8 @@ struct SourceStatus
   std::vector<StreamInfo> streams;    ///< by name
 };
 
-/// Something that delivers samples: a tracker's server, a camera, a recording. Each has its own thread, from start() to stop(), and a
+/// Something that delivers samples: a tracker's server, a camera, a recording. Each has its own thread, from start() to stop(),
+/// and a
 /// bounded buffer that pop() takes from. A source that is lost (server gone, cable pulled) says so in its status and is tried again
 /// until stop(); it never throws from its thread.
 ///

@@ -41,7 +41,8 @@ struct VideoSourceOptions
 
 /// A camera or a video file through OpenCV.
 ///
-/// A live frame's time is this computer's clock when the frame had arrived, so that the camera's own delay is part of the latency that
+/// A live frame's time is this computer's clock when the frame had arrived, so that the camera's own delay is part of the latency
+/// that
 /// temporal calibration finds. A camera that is unplugged says so in the status and is opened again every half second. A file ends
 /// with the state Finished.
 class VideoSource : public Source

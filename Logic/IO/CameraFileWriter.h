@@ -32,12 +32,14 @@ struct CameraFileExtras
 
 /// Writes a camera file.
 ///
-/// The convention (`p_Camera = markerToCamera * p_Marker`, mm; OpenCV's camera frame and pixel centres) stands in a comment where the
+/// The convention (`p_Camera = markerToCamera * p_Marker`, mm; OpenCV's camera frame and pixel centres) stands in a comment where
+/// the
 /// format has comments. `CameraPlaneOffset` is written as zero, since a pinhole camera has none.
 /// @param path the file; for SurgeryText "<name>.intrinsics.txt" or any other name, the second file being "<name>.handeye.txt"
 /// @param warnings sentences for the user are appended: what the format cannot hold, what its readers are known to do
 /// @return the files that were written
-/// @throws FileError where it cannot be written, or where the format cannot hold this camera (no image size for ROS and OpenCV, more
+/// @throws FileError where it cannot be written, or where the format cannot hold this camera (no image size for ROS and OpenCV,
+/// more
 /// than 8 coefficients for ROS, no markerToCamera for SlicerPinholeCameras)
 std::vector<std::filesystem::path> writeCameraFile(const std::filesystem::path& path, const CameraFile& file, CameraFormat format,
   std::vector<std::string>& warnings, const CameraFileExtras& extras = {});

@@ -12,7 +12,8 @@
 namespace handeye::io
 {
 
-/// A rigid transform with the names of its two frames: p_To = transform * p_From, mm. Numbers are as we use them; what other programs
+/// A rigid transform with the names of its two frames: p_To = transform * p_From, mm. Numbers are as we use them; what other
+/// programs
 /// call RAS is, for them, the frame that these numbers are in.
 struct NamedTransform
 {

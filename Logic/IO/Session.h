@@ -36,8 +36,10 @@ struct SessionSample
 ///     tracking.igs.mha         the samples' transforms; with it the folder is a recording that every command takes
 ///     documents/NAME.json      stylus, calibration, phantom, settings, ...
 ///
-/// addSample() returns when image and sample are on the disk (flushed, renamed): what it returned is never lost, whenever the program
-/// or the computer dies. tracking.igs.mha follows from the samples and is written anew when it does not fit them. Excluded samples have
+/// addSample() returns when image and sample are on the disk (flushed, renamed): what it returned is never lost, whenever the
+/// program
+/// or the computer dies. tracking.igs.mha follows from the samples and is written anew when it does not fit them. Excluded samples
+/// have
 /// no transforms there.
 ///
 /// open() reports what is damaged (an image whose checksum differs, a sample that cannot be read) in problems() and opens the rest;
@@ -66,7 +68,8 @@ public:
   /// Sets a sample aside, or brings it back. @throws FileError; std::out_of_range for an id that there is not
   void setExcluded(int id, bool isExcluded);
 
-  /// Stores a result or settings under a name of letters, digits, '-' and '_'. @throws FileError; std::invalid_argument for other names
+  /// Stores a result or settings under a name of letters, digits, '-' and '_'. @throws FileError; std::invalid_argument for other
+  /// names
   void setDocument(const std::string& name, const nlohmann::json& document);
   /// Nothing if there is none (or it is damaged: see problems()).
   std::optional<nlohmann::json> document(const std::string& name) const;

@@ -62,10 +62,12 @@ struct RoomPose
   bool isValid = true;
 };
 
-/// A tracked camera that looks at a ball on a tracked stylus, and at a tracked phantom among clutter. All of it is a function of time and
+/// A tracked camera that looks at a ball on a tracked stylus, and at a tracked phantom among clutter. All of it is a function of
+/// time and
 /// of the seed: the same moment is the same picture.
 ///
-/// Frames: `Tracker` (mm, the room), `Marker` (on the camera), `Camera` (OpenCV), `Stylus`, `Phantom`. The ball is drawn analytically with
+/// Frames: `Tracker` (mm, the room), `Marker` (on the camera), `Camera` (OpenCV), `Stylus`, `Phantom`. The ball is drawn
+/// analytically with
 /// its outline anti-aliased in linear light, through the exact lens.
 ///
 /// Safe to share between threads.

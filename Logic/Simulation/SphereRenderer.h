@@ -38,7 +38,8 @@ struct Photograph
   unsigned seed = 1;
 };
 
-/// The rays of a camera's pixel corners, worked out once for many pictures. In between they are interpolated, which is exact to better
+/// The rays of a camera's pixel corners, worked out once for many pictures. In between they are interpolated, which is exact to
+/// better
 /// than 1e-4 px for lenses that are not wilder than a fisheye's.
 class RayTable
 {

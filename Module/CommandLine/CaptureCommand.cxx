@@ -9,6 +9,7 @@
 #include "ResultFiles.h"
 #include "SourceOptions.h"
 #include "StopSignal.h"
+#include "StreamRecorder.h"
 
 #include <iostream>
 #include <memory>
@@ -22,7 +23,7 @@ namespace
 struct CaptureArguments
 {
   LiveSources sources;
-  std::string session, camera, stylus;
+  std::string session, camera, stylus, record, poses;
   int count = 15;
   double seconds = 0;
   devices::LiveCaptureOptions options;
@@ -74,6 +75,34 @@ private:
   double lastSec_ = -1e300;
 };
 
+/// A recording that fails (full disk) is said once; the capture goes on.
+class RecordingBeside
+{
+public:
+  RecordingBeside(const CaptureArguments& arguments, const CommandOutput& output)
+    : recorder_(arguments.record, arguments.poses)
+    , output_(output)
+  {
+  }
+
+  template<typename Sample> void add(const Sample& sample) { warnIf(!recorder_.add(sample)); }
+  void close() { warnIf(!recorder_.close()); }
+
+private:
+  void warnIf(bool hasFailed)
+  {
+    if (hasFailed && !isSaid_)
+    {
+      output_.warn({ "the recording has ended, the capture goes on: " + recorder_.error() });
+      isSaid_ = true;
+    }
+  }
+
+  devices::StreamRecorder recorder_;
+  const CommandOutput& output_;
+  bool isSaid_ = false;
+};
+
 int runCapture(CaptureArguments& arguments)
 {
   const io::CameraFile camera = io::readCameraFile(arguments.camera);
@@ -83,6 +112,7 @@ int runCapture(CaptureArguments& arguments)
   arguments.output.warn(session.problems());
   devices::LiveCapture capture(camera.camera, tip_Stylus, session, arguments.options);
   Capturing capturing(capture, arguments.output);
+  RecordingBeside recording(arguments, arguments.output);
   arguments.sources.pairing.toolNames = { arguments.options.stylusToTracker, arguments.options.markerToTracker };
   arguments.sources.start();
   catchStopSignals();
@@ -96,14 +126,17 @@ int runCapture(CaptureArguments& arguments)
   {
     if (std::optional<devices::DeviceSample> sample = arguments.sources.pop(0.1))
     {
+      recording.add(*sample);
       pairing.add(std::move(*sample));
     }
     for (std::optional<devices::PairedFrame> frame; !isDone() && (frame = pairing.take());)
     {
+      recording.add(*frame);
       capturing.add(*frame);
     }
   }
   arguments.sources.stop();
+  recording.close();
   const bool isFull = int(session.samples().size()) >= arguments.count;
   CommandOutput output = arguments.output;
   output.file.clear();
@@ -127,6 +160,9 @@ void addCaptureCommand(CLI::App& app, int& exitCode)
   addBallRadiusOption(*command, arguments->options.ballRadiusMm);
   addTransformOption(*command, "--stylus-transform", arguments->options.stylusToTracker, "stylus");
   addTransformOption(*command, "--marker-transform", arguments->options.markerToTracker, "camera's marker");
+  command->add_option("--record", arguments->record, "Also record all images with the poses of their moments (sequence metafile)")
+    ->type_name("FILE");
+  command->add_option("--record-poses", arguments->poses, "Also record every pose at its own time")->type_name("FILE");
   command->add_option("--count", arguments->count, "Stop when the session has so many samples")->capture_default_str();
   command->add_option("--seconds", arguments->seconds, "Stop after so much stream time")->type_name("SEC");
   command->add_option("--still", arguments->options.stillSec, "How long the ball must be still, s")->capture_default_str();

@@ -17,7 +17,8 @@
 namespace handeye::cli
 {
 
-/// The sources of a command: `--server HOST:PORT` (several), `--video DEVICE`, `--replay RECORDING`; samples of all of them in one row.
+/// The sources of a command: `--server HOST:PORT` (several), `--video DEVICE`, `--replay RECORDING`; samples of all of them in one
+/// row.
 /// Where there are several, times are brought to this computer's clock.
 class LiveSources
 {

@@ -100,7 +100,8 @@ TEST(DeviceLoad, FullHdAndTwoTools_LoseNothingAndMemoryStaysFlat)
   EXPECT_TRUE(isInOrder);
   EXPECT_EQ(client.status().droppedCount, 0U);
   EXPECT_EQ(client.status().refusedCount, 0U);
-  // The buffer may fill up to its 256 MB where the machine has other work; a leak of a frame in a hundred would be more in ten minutes.
+  // The buffer may fill up to its 256 MB where the machine has other work; a leak of a frame in a hundred would be more in ten
+  // minutes.
   EXPECT_LT(highest, early + options.buffer.maximumBytes + (std::size_t(64) << 20));
 }
 

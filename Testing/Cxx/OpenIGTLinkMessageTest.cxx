@@ -208,7 +208,8 @@ TEST(OpenIGTLinkMessage, LibrarysTrackingData_IsRead)
   }
 }
 
-/// The library itself writes beyond its memory when it packs the short forms (28 bytes into 24 or 12), so these are cut from the long one.
+/// The library itself writes beyond its memory when it packs the short forms (28 bytes into 24 or 12), so these are cut from the
+/// long one.
 TEST(OpenIGTLinkMessage, LibrarysPosition_IsReadInAllItsSizes)
 {
   const Eigen::Quaterniond turn(typicalMarkerToCamera().linear());
