@@ -57,11 +57,12 @@ std::string matrixText(const Eigen::Matrix4d& matrix)
 
 }  // namespace
 
-/// The pixels so far, as the file will have them.
+/// The frames so far, as the file will have them: on the disk, so that memory does not grow with the recording.
 struct SequenceMetafileWriter::Pixels
 {
   Pixels(const std::filesystem::path& path, bool isCompressed)
-    : scratch(path)
+    : fields(path)
+    , scratch(path)
   {
     if (isCompressed && deflateInit(&stream.emplace(), Z_BEST_SPEED) != Z_OK)
     {
@@ -128,6 +129,7 @@ struct SequenceMetafileWriter::Pixels
 
   void writeBlank() { writeImage(cv::Mat::zeros(size, type)); }
 
+  ScratchFile fields;  ///< the header lines of the frames so far
   ScratchFile scratch;
   std::optional<z_stream> stream;
   std::uint64_t bytesWritten = 0;
@@ -247,7 +249,7 @@ void SequenceMetafileWriter::appendHeader(const SequenceFrame& frame, bool hasIm
     add(entry.first, entry.second);
   }
   add("ImageStatus", hasImage && frame.isImageValid.value_or(true) ? "OK" : "INVALID");
-  frameFields_ += lines;
+  pixels_->fields.write(lines.data(), lines.size());
 }
 
 std::string SequenceMetafileWriter::fileHeader() const
@@ -289,7 +291,7 @@ void SequenceMetafileWriter::close()
   }
   AtomicFile file(path_);
   file.write(fileHeader());
-  file.write(frameFields_);
+  pixels_->fields.copyTo(file);
   file.write("ElementDataFile = LOCAL\n");
   if (hasImages)
   {

@@ -59,7 +59,6 @@ private:
 
   std::filesystem::path path_;
   SequenceMetafileWriterOptions options_;
-  std::string frameFields_;  ///< the header lines of the frames so far
   int frameCount_ = 0;
   std::unique_ptr<Pixels> pixels_;
   bool isClosed_ = false;

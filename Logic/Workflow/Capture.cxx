@@ -4,6 +4,7 @@
 
 #include "BallTracker.h"
 #include "FileError.h"
+#include "TimedPose.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -22,8 +23,8 @@ std::string trackingStatus(const char* tool, const io::TransformSample& sample)
 /// The ball's centre from the tracker; a frame without a usable pose is no sample.
 void trackTip(const io::Recording& recording, const ToolNames& tools, const Eigen::Vector3d& tip_Stylus, CapturedFrame& captured)
 {
-  const io::TransformSample marker = recording.transform(captured.frame, tools.markerToTracker);
-  const io::TransformSample stylus = recording.transform(captured.frame, tools.stylusToTracker);
+  const io::TransformSample marker = poseOfFrame(recording, captured.frame, tools.markerToTracker, tools.latencySec);
+  const io::TransformSample stylus = poseOfFrame(recording, captured.frame, tools.stylusToTracker, tools.latencySec);
   if (!marker.isUsable() || !stylus.isUsable())
   {
     const io::TransformSample& lost = marker.isUsable() ? stylus : marker;

@@ -26,6 +26,8 @@ struct ToolNames
 {
   std::string stylusToTracker = "StylusToTracker";
   std::string markerToTracker = "MarkerToTracker";
+  /// The poses of an image are those at its time plus this; see calibrateLatency(). Not 0: they are interpolated between frames.
+  double latencySec = 0;
 };
 
 /// What one frame of a capture gives: the ball in the image, and its place in the camera marker's frame.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OverlayPose.h"
 
+#include "TimedPose.h"
+
 namespace handeye
 {
 
@@ -14,11 +16,11 @@ Eigen::Isometry3d toModelToCamera(
 }
 
 OverlayPose overlayPose(const io::Recording& recording, int frame, const std::string& markerToTrackerName,
-  const std::string& phantomToTrackerName, const OverlayTransforms& transforms)
+  const std::string& phantomToTrackerName, const OverlayTransforms& transforms, double latencySec)
 {
   OverlayPose pose;
-  const io::TransformSample marker = recording.transform(frame, markerToTrackerName);
-  const io::TransformSample phantom = recording.transform(frame, phantomToTrackerName);
+  const io::TransformSample marker = poseOfFrame(recording, frame, markerToTrackerName, latencySec);
+  const io::TransformSample phantom = poseOfFrame(recording, frame, phantomToTrackerName, latencySec);
   if (!marker.isUsable() || !phantom.isUsable())
   {
     const io::TransformSample& lost = marker.isUsable() ? phantom : marker;

@@ -35,8 +35,9 @@ struct OverlayPose
 };
 
 /// @param frame of the recording; @throws std::out_of_range for a frame that there is not
+/// @param latencySec the poses are those at the frame's time plus this, see calibrateLatency()
 /// @param markerToTrackerName,phantomToTrackerName the poses in the recording; of a tool that is not in it every frame is missing
 [[nodiscard]] OverlayPose overlayPose(const io::Recording& recording, int frame, const std::string& markerToTrackerName,
-  const std::string& phantomToTrackerName, const OverlayTransforms& transforms);
+  const std::string& phantomToTrackerName, const OverlayTransforms& transforms, double latencySec = 0);
 
 }  // namespace handeye

@@ -211,6 +211,7 @@ json calibrationJson(const CalibrationStepResult& step)
   object["ballRadiusMm"] = step.ballRadiusMm;
   object["stylusTransform"] = step.tools.stylusToTracker;
   object["markerTransform"] = step.tools.markerToTracker;
+  object["latencySec"] = step.tools.latencySec;
   object["samples"] = sampleRows(step.frames, step.calibration.isUsable());
   if (step.isUsable())
   {

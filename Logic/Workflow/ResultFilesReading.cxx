@@ -161,6 +161,7 @@ StoredCalibration readCalibration(const Path& path)
   };
   stored.tools.stylusToTracker = name("stylusTransform", stored.tools.stylusToTracker);
   stored.tools.markerToTracker = name("markerTransform", stored.tools.markerToTracker);
+  stored.tools.latencySec = readNumber(path, object.value("latencySec", json(0.0)), "latencySec");
   return stored;
 }
 

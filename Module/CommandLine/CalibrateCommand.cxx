@@ -181,6 +181,7 @@ void addCalibrateCommand(CLI::App& app, int& exitCode)
     ->type_name("MM");
   addTransformOption(*command, "--stylus-transform", arguments->tools.stylusToTracker, "stylus");
   addTransformOption(*command, "--marker-transform", arguments->tools.markerToTracker, "camera's marker");
+  addLatencyOption(*command, arguments->tools.latencySec);
   CLI::Option* right = command->add_option("--right", arguments->rightRecording, "Capture of the right eye of a stereo rig");
   right->type_name("RECORDING");
   CLI::Option* rightCamera =

@@ -24,5 +24,12 @@ void addDetectCommand(CLI::App& app, int& exitCode);
 void addRegisterCommand(CLI::App& app, int& exitCode);
 void addLandmarksCommand(CLI::App& app, int& exitCode);
 void addOverlayCommand(CLI::App& app, int& exitCode);
+void addExportCommand(CLI::App& app, int& exitCode);
+void addCameraConvertCommand(CLI::App& app, int& exitCode);
+void addSimulateCommand(CLI::App& app, int& exitCode);
+void addRecordCommand(CLI::App& app, int& exitCode);
+void addCaptureCommand(CLI::App& app, int& exitCode);
+void addStreamsCommand(CLI::App& app, int& exitCode);
+void addLatencyCommand(CLI::App& app, int& exitCode);
 
 }  // namespace handeye::cli

@@ -111,6 +111,16 @@ void addPivotMethodOption(CLI::App& command, PivotMethod& method)
     "How the tip is found: robustly, or by a classical method that takes all poses");
 }
 
+void addLatencyOption(CLI::App& command, double& latencySec)
+{
+  const auto store = [&latencySec](const double& latencyMs) { latencySec = latencyMs / 1000; };
+  command
+    .add_option_function<double>(
+      "--latency", store, "The poses of an image are those at its time plus this, ms; see `handeye latency`")
+    ->check(CLI::Range(-10000.0, 10000.0))
+    ->type_name("MS");
+}
+
 void addCalibrationOption(CLI::App& command, std::string& calibration)
 {
   command.add_option("--calibration", calibration, "What `handeye calibrate` wrote")->required()->type_name("calibration.json");

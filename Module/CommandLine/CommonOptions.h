@@ -23,6 +23,8 @@ void addSolverOption(CLI::App& command, PointLineOptions::Method& method);
 /// A standard deviation of at least 0.
 void addSigmaOption(CLI::App& command, const std::string& option, double& sigma, const std::string& what);
 void addPivotMethodOption(CLI::App& command, PivotMethod& method);
+/// `--latency MS`, in milliseconds; `latencySec` is in seconds.
+void addLatencyOption(CLI::App& command, double& latencySec);
 void addCalibrationOption(CLI::App& command, std::string& calibration);
 
 /// @param what "stylus", "camera's marker", ...; an empty `name` is said to be the calibration's

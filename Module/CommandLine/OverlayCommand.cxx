@@ -92,6 +92,7 @@ public:
     , transforms_{ stored.markerToCamera, readPhantomRegistration(arguments.registration) }
     , camera_(cameraForRecording(stored.camera, recording))
     , markerTransform_(arguments.markerTransform.empty() ? stored.tools.markerToTracker : arguments.markerTransform)
+    , latencySec_(stored.tools.latencySec)
   {
     recording.requireTransform(arguments.phantomTransform);
     recording.requireTransform(markerTransform_);
@@ -110,7 +111,8 @@ public:
     {
       return { { "frame", frame }, { "status", "image_missing" } };
     }
-    const OverlayPose pose = overlayPose(recording_, frame, markerTransform_, arguments_.phantomTransform, transforms_);
+    const OverlayPose pose =
+      overlayPose(recording_, frame, markerTransform_, arguments_.phantomTransform, transforms_, latencySec_);
     pipeline_->SetVideoFrame(toEightBit(recording_.image(frame)));
     pipeline_->SetModelVisible(pose.isUsable());
     std::string status = pose.status, message = pose.message;
@@ -162,6 +164,7 @@ private:
   OverlayTransforms transforms_;
   CameraModel camera_;
   std::string markerTransform_;
+  double latencySec_;
   vtkSmartPointer<vtkPolyData> model_;
   vtkNew<vtkHandEyeOverlayPipeline> pipeline_;
   int drawn_ = 0;

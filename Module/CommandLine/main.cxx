@@ -54,6 +54,13 @@ int main(int argc, char** argv)
   addRegisterCommand(app, exitCode);
   addLandmarksCommand(app, exitCode);
   addOverlayCommand(app, exitCode);
+  addExportCommand(app, exitCode);
+  addCameraConvertCommand(app, exitCode);
+  addSimulateCommand(app, exitCode);
+  addRecordCommand(app, exitCode);
+  addCaptureCommand(app, exitCode);
+  addStreamsCommand(app, exitCode);
+  addLatencyCommand(app, exitCode);
   try
   {
     app.parse(argc, argv);

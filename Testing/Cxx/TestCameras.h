@@ -9,8 +9,14 @@
 #include <string>
 #include <vector>
 
+namespace handeye::simulation
+{
+}
+
 namespace handeye::test
 {
+
+using namespace simulation;  // SphereRenderer.h, which the simulated room shares with the tests
 
 inline CameraModel makeCamera(
   int width, int height, double fx, double fy, double cx, double cy, const std::vector<double>& coefficients)

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace handeye::test
+namespace handeye::simulation
 {
 
 /// Blue, green, red in linear light, 0 to 1.
@@ -68,4 +68,4 @@ inline cv::Mat develop(const cv::Mat& light, const Photograph& how)
   return image;
 }
 
-}  // namespace handeye::test
+}  // namespace handeye::simulation

@@ -1,0 +1,338 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Session.h"
+
+#include "AtomicFile.h"
+#include "FileError.h"
+#include "ImageFile.h"
+#include "NumberText.h"
+#include "SequenceMetafileWriter.h"
+#include "SessionJson.h"
+#include "TextFile.h"
+
+#include <opencv2/imgcodecs.hpp>
+#include <zlib.h>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace handeye::io
+{
+
+namespace
+{
+
+using Json = nlohmann::json;
+using Path = std::filesystem::path;
+
+constexpr const char* Schema = "handeye-session/1";
+constexpr std::size_t LargestDocument = std::size_t(64) << 20;
+constexpr std::size_t LargestImage = std::size_t(1) << 30;
+
+std::uint32_t crcOf(const void* bytes, std::size_t count)
+{
+  return std::uint32_t(crc32_z(0, static_cast<const Bytef*>(bytes), count));
+}
+
+void makeFolder(const Path& folder)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder))
+  {
+    throw FileError(folder, "the folder cannot be made (" + error.message() + ")");
+  }
+}
+
+/// The files of a folder in the order of their names.
+std::vector<Path> filesOf(const Path& folder)
+{
+  std::vector<Path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+  {
+    files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool isTemporary(const Path& file)
+{
+  const std::string name = file.filename().string();
+  return name.rfind(".handeye-", 0) == 0 && file.extension() == ".tmp";
+}
+
+bool isDocumentName(const std::string& name)
+{
+  const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+  return !name.empty() && name.size() < 100 && name.find_first_not_of(allowed) == std::string::npos;
+}
+
+}  // namespace
+
+/// Held as long as the session is open; gone with the program, however it ends.
+struct Session::Lock
+{
+  explicit Lock(const Path& folder)
+    : descriptor(::open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666))
+  {
+    if (descriptor < 0)
+    {
+      throw FileError(folder, "the session cannot be written to");
+    }
+    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+    {
+      close(descriptor);
+      throw FileError(folder, "another program has this session open");
+    }
+  }
+  ~Lock() { close(descriptor); }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+  int descriptor;
+};
+
+Session::Session(const Path& folder)
+  : folder_(folder)
+{
+}
+
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+Session::~Session() = default;
+
+Session Session::create(const Path& folder)
+{
+  makeFolder(folder);
+  if (!std::filesystem::is_empty(folder))
+  {
+    throw FileError(folder, "the folder is not empty; a session is made in an empty or new one");
+  }
+  Session session(folder);
+  session.lock_ = std::make_unique<Lock>(folder);
+  for (const char* part : { "frames", "samples", "documents" })
+  {
+    makeFolder(folder / part);
+  }
+  session.writeTracking();
+  writeFileAtomically(folder / "session.json", Json({ { "schema", Schema } }).dump(2) + "\n");
+  return session;
+}
+
+Session Session::open(const Path& folder)
+{
+  const Path file = folder / "session.json";
+  std::string schema;
+  try
+  {
+    schema = Json::parse(readWholeFile(file, LargestDocument)).at("schema").get<std::string>();
+  }
+  catch (const Json::exception& error)
+  {
+    throw FileError(file, "this is no session (" + printable(error.what()) + ")");
+  }
+  if (schema != Schema)
+  {
+    throw FileError(file, "the schema is " + inQuotes(schema) + ", perhaps of a newer version; " + Schema + " was expected");
+  }
+  Session session(folder);
+  session.lock_ = std::make_unique<Lock>(folder);
+  session.read();
+  session.refreshTracking();
+  return session;
+}
+
+Session Session::openOrCreate(const Path& folder)
+{
+  return std::filesystem::exists(folder / "session.json") ? open(folder) : create(folder);
+}
+
+void Session::read()
+{
+  for (const char* part : { "", "frames", "samples", "documents" })
+  {
+    const Path inside = folder_ / part;
+    if (!std::filesystem::is_directory(inside))
+    {
+      problems_.push_back("the folder '" + inside.string() + "' is missing; it was made anew");
+      makeFolder(inside);
+    }
+    for (const Path& file : filesOf(inside))
+    {
+      std::error_code ignored;
+      if (isTemporary(file))
+      {
+        std::filesystem::remove(file, ignored);
+      }
+    }
+  }
+  for (const Path& file : filesOf(folder_ / "samples"))
+  {
+    const int id = idOf(file, ".json");
+    if (id < 0)
+    {
+      problems_.push_back(file.string() + ": this is no name for a sample; it is left alone");
+      continue;
+    }
+    nextId_ = std::max(nextId_, id + 1);
+    try
+    {
+      readSample(file, id);
+    }
+    catch (const FileError& error)
+    {
+      problems_.push_back(error.what());
+    }
+  }
+  for (const Path& file : filesOf(folder_ / "frames"))
+  {
+    const int id = idOf(file, ".png");
+    nextId_ = std::max(nextId_, id + 1);
+    if (id >= 0 && !std::filesystem::exists(folder_ / "samples" / (frameDigits(id) + ".json")))
+    {
+      problems_.push_back(file.string() + ": the image of a sample that was not accepted any more, or whose file is gone");
+    }
+  }
+  for (const Path& file : filesOf(folder_ / "documents"))
+  {
+    try
+    {
+      documents_[file.stem().string()] = Json::parse(readWholeFile(file, LargestDocument));
+    }
+    catch (const std::exception& error)
+    {
+      problems_.push_back(file.string() + ": the document cannot be read (" + printable(error.what()) + ")");
+    }
+  }
+}
+
+void Session::readSample(const Path& path, int id)
+{
+  const StoredSample stored = parseSample(path, id);
+  const Path imagePath = folder_ / "frames" / (frameDigits(id) + ".png");
+  const std::string bytes = readWholeFile(imagePath, LargestImage);
+  if (bytes.size() != stored.imageBytes || crcOf(bytes.data(), bytes.size()) != stored.imageCrc)
+  {
+    throw FileError(imagePath, "the image is not the one that was stored: its size or checksum differs");
+  }
+  samples_[id] = stored.sample;
+  images_[id] = { stored.imageBytes, stored.imageCrc };
+}
+
+int Session::addSample(const cv::Mat& image, SessionSample sample)
+{
+  std::vector<std::uint8_t> png;
+  if (image.empty() || !cv::imencode(".png", image, png, { cv::IMWRITE_PNG_COMPRESSION, 1 }))
+  {
+    throw std::invalid_argument("an image of 8 or 16 bits is expected for a session's sample");
+  }
+  sample.id = nextId_;
+  const Path imagePath = folder_ / "frames" / (frameDigits(sample.id) + ".png");
+  writeFileAtomically(imagePath, { reinterpret_cast<const char*>(png.data()), png.size() });
+  const StoredImage stored{ png.size(), crcOf(png.data(), png.size()) };
+  try
+  {
+    writeSample(sample, stored.bytes, stored.crc);
+  }
+  catch (const FileError&)
+  {
+    std::error_code ignored;
+    std::filesystem::remove(imagePath, ignored);
+    throw;
+  }
+  ++nextId_;
+  images_[sample.id] = stored;
+  samples_[sample.id] = std::move(sample);
+  refreshTracking();
+  return nextId_ - 1;
+}
+
+void Session::writeSample(const SessionSample& sample, std::size_t imageBytes, std::uint32_t imageCrc)
+{
+  writeFileAtomically(
+    folder_ / "samples" / (frameDigits(sample.id) + ".json"), toJson(StoredSample{ sample, imageBytes, imageCrc }).dump(2) + "\n");
+}
+
+void Session::setExcluded(int id, bool isExcluded)
+{
+  SessionSample changed = samples_.at(id);
+  changed.isExcluded = isExcluded;
+  writeSample(changed, images_.at(id).bytes, images_.at(id).crc);
+  samples_[id] = std::move(changed);
+  refreshTracking();
+}
+
+/// The accepted samples stay accepted when this fails: it follows from them, and is tried again each time.
+void Session::refreshTracking()
+{
+  try
+  {
+    writeTracking();
+  }
+  catch (const FileError& error)
+  {
+    problems_.push_back(error.what());
+  }
+}
+
+void Session::writeTracking()
+{
+  SequenceMetafileWriterOptions options;
+  options.transformsOnly = true;
+  SequenceMetafileWriter writer(folder_ / "tracking.igs.mha", options);
+  for (int id = 0; id < nextId_; ++id)
+  {
+    SequenceFrame frame;
+    const auto sample = samples_.find(id);
+    if (sample != samples_.end())
+    {
+      frame.timestampSec = sample->second.timeSec;
+      frame.fields["Excluded"] = sample->second.isExcluded ? "1" : "0";
+      if (!sample->second.isExcluded)
+      {
+        frame.transforms = sample->second.transforms;
+      }
+    }
+    writer.append(frame);
+  }
+  writer.close();
+}
+
+void Session::setDocument(const std::string& name, const Json& document)
+{
+  if (!isDocumentName(name))
+  {
+    throw std::invalid_argument("'" + name + "' is no name for a document: letters, digits, '-' and '_' are expected");
+  }
+  writeFileAtomically(folder_ / "documents" / (name + ".json"), document.dump(2) + "\n");
+  documents_[name] = document;
+}
+
+std::optional<Json> Session::document(const std::string& name) const
+{
+  const auto found = documents_.find(name);
+  return found == documents_.end() ? std::nullopt : std::optional<Json>(found->second);
+}
+
+std::vector<std::string> Session::documentNames() const
+{
+  std::vector<std::string> names;
+  for (const auto& document : documents_)
+  {
+    names.push_back(document.first);
+  }
+  return names;
+}
+
+cv::Mat Session::image(int id) const
+{
+  return readImage(folder_ / "frames" / (frameDigits(samples_.at(id).id) + ".png"));
+}
+
+}  // namespace handeye::io

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Recording.h"
+
+#include <string>
+
+namespace handeye
+{
+
+/// The pose of a tool that belongs to the image of a frame: at the frame's time plus the latency, interpolated between the
+/// recording's
+/// frames. Without a latency it is the frame's own, as recorded; the recording need not have times then.
+/// A moment outside of the recording, in a gap, or beside a frame in which the tool was not seen gives no pose, with the reason.
+/// @param frame of the recording; @throws std::out_of_range for a frame that there is not
+io::TransformSample poseOfFrame(const io::Recording& recording, int frame, const std::string& name, double latencySec);
+
+}  // namespace handeye

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CommandOutput.h"
+#include "Commands.h"
+#include "FramePairing.h"
+#include "SourceOptions.h"
+#include "StopSignal.h"
+#include "StreamRecorder.h"
+
+#include <iostream>
+#include <memory>
+
+namespace handeye::cli
+{
+
+namespace
+{
+
+struct RecordArguments
+{
+  LiveSources sources;
+  std::string poses;
+  double seconds = 0;
+  int frames = 0;
+  CommandOutput output;
+};
+
+int runRecord(RecordArguments& arguments)
+{
+  if (arguments.output.file.empty() && arguments.poses.empty())
+  {
+    throw CLI::ValidationError("record", "-o FILE or --poses FILE is expected");
+  }
+  devices::StreamRecorder recorder(arguments.output.file, arguments.poses);
+  arguments.sources.start();
+  catchStopSignals();
+  devices::FramePairing pairing(arguments.sources.pairing);
+  const auto record = [&](const std::optional<devices::PairedFrame>& frame) { return frame && recorder.add(*frame); };
+  const auto isDone = [&]
+  {
+    return isStopAsked() || recorder.hasFailed() || (arguments.frames > 0 && recorder.frameCount() >= arguments.frames) ||
+      (arguments.seconds > 0 && arguments.sources.streamSec() > arguments.seconds);
+  };
+  while (!isDone() && arguments.sources.isAlive())
+  {
+    if (std::optional<devices::DeviceSample> sample = arguments.sources.pop(0.1))
+    {
+      recorder.add(*sample);
+      pairing.add(std::move(*sample));
+    }
+    while (!isDone() && record(pairing.take()))
+    {
+    }
+  }
+  while (!isDone() && record(pairing.takeRest()))
+  {
+  }
+  arguments.sources.stop();
+  const bool isGood = recorder.close() && recorder.frameCount() + recorder.poseCount() > 0;
+  nlohmann::json result = { { "schema", "handeye-record/1" }, { "status", isGood ? "ok" : "not_recorded" },
+    { "frames", recorder.frameCount() }, { "poses", recorder.poseCount() }, { "sources", arguments.sources.statusJson() } };
+  result["message"] = recorder.hasFailed() ? recorder.error()
+    : isGood ? std::to_string(recorder.frameCount()) + " frames and " + std::to_string(recorder.poseCount()) + " poses recorded"
+             : "nothing came: " + arguments.sources.message();
+  arguments.output.say(result["message"].get<std::string>());
+  CommandOutput output = arguments.output;
+  output.file.clear();
+  return output.finish(result);
+}
+
+}  // namespace
+
+void addRecordCommand(CLI::App& app, int& exitCode)
+{
+  auto arguments = std::make_shared<RecordArguments>();
+  CLI::App* command = app.add_subcommand("record", "Record what a tracker's server and a camera stream");
+  arguments->sources.addTo(*command);
+  command->add_option("--poses", arguments->poses, "Also every pose at its own time, as a sequence metafile")->type_name("FILE");
+  command->add_option("--seconds", arguments->seconds, "How much; until Ctrl+C otherwise")->type_name("SEC");
+  command->add_option("--frames", arguments->frames, "How many images at most")->type_name("N");
+  arguments->output.addTo(*command);
+  command->get_option("--output")->description("Images with the poses of their moments, as a sequence metafile");
+  command->callback([arguments, &exitCode] { exitCode = runRecord(*arguments); });
+}
+
+}  // namespace handeye::cli

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "FramePairing.h"
+#include "Source.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace handeye::cli
+{
+
+/// The sources of a command: `--server HOST:PORT` (several), `--video DEVICE`, `--replay RECORDING`; samples of all of them in one
+/// row.
+/// Where there are several, times are brought to this computer's clock.
+class LiveSources
+{
+public:
+  devices::FramePairingOptions pairing;  ///< with --latency in it
+
+  void addTo(CLI::App& command);
+
+  void start();
+  void stop();
+
+  /// The next sample of any of them.
+  std::optional<devices::DeviceSample> pop(double timeoutSec);
+
+  /// Time of the newest sample since the first one.
+  double streamSec() const { return newestSec_ - firstSec_; }
+
+  /// False when every source has come to its end, or none has come up within the time that is given to them.
+  bool isAlive() const;
+
+  /// What the sources say of themselves.
+  std::string message() const;
+  nlohmann::json statusJson() const;
+
+private:
+  std::vector<std::string> servers_;
+  std::string video_, replay_;
+  double speed_ = 1, latencyMs_ = 0, waitSec_ = 10;
+  std::vector<std::unique_ptr<devices::Source>> sources_;
+  std::map<std::size_t, devices::ClockOffset> offsets_;
+  std::size_t next_ = 0;
+  double startSec_ = 0, firstSec_ = 0, newestSec_ = 0;
+  bool hasSample_ = false;
+};
+
+}  // namespace handeye::cli

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TimedPose.h"
+#include "IoTestSupport.h"
+#include "OverlayPose.h"
+#include "SequenceMetafileWriter.h"
+#include "Simulation.h"
+
+namespace
+{
+
+using namespace handeye;
+using io::TransformSample;
+using io::test::TemporaryFolder;
+
+/// Ten frames, 40 ms apart: the tool moves by 100 mm/s; hidden in frame 7.
+io::Recording recordingIn(const TemporaryFolder& folder)
+{
+  io::SequenceMetafileWriter writer(folder.path() / "r.igs.mha");
+  for (int i = 0; i < 10; ++i)
+  {
+    io::SequenceFrame frame;
+    frame.timestampSec = 5 + 0.04 * i;
+    frame.transforms["MarkerToTracker"] = { test::makeRigid({ 0, 0, 0.01 * i }, { 4.0 * i, 0, 0 }).matrix(),
+      i == 7 ? "INVALID" : "OK" };
+    frame.transforms["PhantomToTracker"] = { Eigen::Matrix4d::Identity(), "OK" };
+    writer.append(frame);
+  }
+  writer.close();
+  return io::Recording::open(folder.path() / "r.igs.mha");
+}
+
+TEST(TimedPose, Latency_InterpolatesBetweenFrames)
+{
+  const TemporaryFolder folder;
+  const io::Recording recording = recordingIn(folder);
+  for (double latencySec : { 0.0, 0.01, -0.03, 0.04, -0.1 })
+  {
+    const TransformSample pose = poseOfFrame(recording, 4, "MarkerToTracker", latencySec);
+    ASSERT_TRUE(pose.isUsable()) << latencySec << ": " << pose.reason;
+    EXPECT_NEAR(pose.transform.translation().x(), 16 + 100 * latencySec, 1e-9) << latencySec;
+  }
+}
+
+TEST(TimedPose, OutsideOrHidden_HasNoPose)
+{
+  const TemporaryFolder folder;
+  const io::Recording recording = recordingIn(folder);
+  EXPECT_EQ(poseOfFrame(recording, 1, "MarkerToTracker", -0.1).status, TransformSample::Status::Invalid);
+  EXPECT_EQ(poseOfFrame(recording, 9, "MarkerToTracker", 0.01).status, TransformSample::Status::Invalid);
+  EXPECT_EQ(poseOfFrame(recording, 6, "MarkerToTracker", 0.02).status, TransformSample::Status::Invalid);
+  EXPECT_EQ(poseOfFrame(recording, 4, "StylusToTracker", 0.02).status, TransformSample::Status::Missing);
+}
+
+TEST(TimedPose, Overlay_AppliesTheLatency)
+{
+  const TemporaryFolder folder;
+  const io::Recording recording = recordingIn(folder);
+  const OverlayPose now = overlayPose(recording, 4, "MarkerToTracker", "PhantomToTracker", {});
+  const OverlayPose earlier = overlayPose(recording, 4, "MarkerToTracker", "PhantomToTracker", {}, -0.04);
+  const OverlayPose before = overlayPose(recording, 3, "MarkerToTracker", "PhantomToTracker", {});
+  ASSERT_TRUE(now.isUsable() && earlier.isUsable() && before.isUsable());
+  EXPECT_LT((earlier.modelToCamera->matrix() - before.modelToCamera->matrix()).norm(), 1e-9);
+  EXPECT_GT((now.modelToCamera->matrix() - before.modelToCamera->matrix()).norm(), 1);
+}
+
+}  // namespace
