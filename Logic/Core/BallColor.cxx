@@ -83,9 +83,9 @@ BallColor adaptToLight(const BallColor& color, const cv::Mat& image)
   const int step = std::max(1, int(std::sqrt(double(image.total()) / LightSamples)));
   const bool isWide = image.depth() == CV_16U;
   std::vector<int> values;
-  for (int row = step / 2; row < image.rows; row += step)
+  for (int row = std::min(step / 2, image.rows - 1); row < image.rows; row += step)
   {
-    for (int column = step / 2; column < image.cols; column += step)
+    for (int column = std::min(step / 2, image.cols - 1); column < image.cols; column += step)
     {
       const int offset = column * image.channels();
       const auto largest = [](const auto* pixel) { return int(std::max({ pixel[0], pixel[1], pixel[2] })); };

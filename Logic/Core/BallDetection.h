@@ -61,7 +61,7 @@ struct BallDetection
   std::string message;                                         ///< for a person
   Eigen::Vector3d ray_Camera = Eigen::Vector3d::UnitZ();       ///< unit ray to the ball's centre
   Eigen::Vector2d ball_Image = Eigen::Vector2d::Zero();        ///< px of the recorded image: where the ball's centre projects
-  Eigen::Matrix2d covariance_Image = Eigen::Matrix2d::Zero();  ///< of ball_Image, px^2, from the scatter of the edge points
+  Eigen::Matrix2d covariance_Image = Eigen::Matrix2d::Zero();  ///< of ball_Image, px^2: scatter of the edges, shading, motion
   double radiusPx = 0;                                         ///< apparent radius: the root of the outline's area over pi
   double distanceMm = 0;                                       ///< of the ball's centre from the camera, from its apparent size
   double visibleShare = 0;                                     ///< share of the outline that was seen

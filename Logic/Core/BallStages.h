@@ -10,8 +10,8 @@
 namespace handeye
 {
 
-/// The stages of the detection as pictures of the frame's size, for a person to look at: the paper's figure, with what this detection
-/// really did.
+/// The stages of the detection as pictures of the frame's size, for a person to look at: the paper's figure. The fit itself takes its edges from
+/// the image; mask and regions only say where to look.
 struct BallStages
 {
   cv::Mat mask;      ///< grey: how well each pixel suits the ball's colour (for the paper's pipeline: its threshold)

@@ -18,11 +18,14 @@ constexpr double BeyondPx = 12;
 constexpr double BorderPx = 3;
 /// How far around a predicted place is looked.
 constexpr double PredictionSigmas = 4;
+/// No image reaches as far (px).
+constexpr double FurthestPx = 1e6;
 
 cv::Rect windowAround(const Eigen::Vector2d& center, double halfSize)
 {
-  const int half = int(std::ceil(halfSize));
-  return { int(std::lround(center.x())) - half, int(std::lround(center.y())) - half, 2 * half + 1, 2 * half + 1 };
+  const int half = int(std::ceil(std::min(halfSize, FurthestPx)));
+  const auto whole = [](double px) { return int(std::lround(std::clamp(px, -FurthestPx, FurthestPx))); };
+  return { whole(center.x()) - half, whole(center.y()) - half, 2 * half + 1, 2 * half + 1 };
 }
 
 }  // namespace
@@ -52,6 +55,10 @@ std::optional<cv::Rect> BallTracker::expect(const std::optional<BallPrediction>&
 
 BallDetection BallTracker::next(const cv::Mat& image, const std::optional<BallPrediction>& prediction)
 {
+  if (prediction)
+  {
+    prediction->check();
+  }
   const cv::Rect whole(0, 0, image.cols, image.rows);
   BallDetection found;
   searched_ = whole;
@@ -59,13 +66,14 @@ BallDetection BallTracker::next(const cv::Mat& image, const std::optional<BallPr
   {
     searched_ = *expected & whole;
     found = detector_.detectIn(image, searched_, prediction);
-    if (!found.isFound() || !isInside(found, searched_, whole))
-    {
-      searched_ = whole;
-    }
   }
-  if (searched_ == whole)
+  else
   {
+    searched_ = {};
+  }
+  if (searched_ != whole && !(found.isFound() && isInside(found, searched_, whole)))
+  {
+    searched_ = whole;
     found = detector_.detect(image, prediction);
   }
   motion_Image_ = last_ && found.isFound() ? Eigen::Vector2d(found.ball_Image - last_->ball_Image) : Eigen::Vector2d::Zero();

@@ -12,7 +12,8 @@ namespace handeye
 {
 
 /// Follows the ball through a video: looks first where the last frame (or the tracker) says it is, and in the whole image when it is
-/// not there. What a frame gives is the same as BallDetector gives it, only sooner.
+/// not there. The ball that it finds is as exact as
+/// BallDetector's; a second ball outside of the window is not noticed.
 ///
 /// Not thread-safe: one tracker, one video.
 class BallTracker

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace handeye
@@ -103,30 +104,33 @@ std::string crampedSpot(const Samples& samples, const Eyes& eyes, const HandEyeC
 }
 
 /// The samples that were left out, if they are a run of four or more at the beginning or the end of the capture; otherwise none.
-std::vector<int> leftOutRun(const HandEyeCalibrationResult& result)
+std::vector<int> leftOutRun(const Samples& samples, const HandEyeCalibrationResult& result)
 {
-  constexpr std::ptrdiff_t fewest = 4;
-  const auto isUsed = [](const HandEyeCalibrationResult::Sample& sample) { return sample.used; };
-  const auto firstUsed = std::find_if(result.samples.begin(), result.samples.end(), isUsed);
-  const auto lastUsed = std::find_if(result.samples.rbegin(), result.samples.rend(), isUsed);
-  const std::ptrdiff_t before = firstUsed - result.samples.begin(), after = lastUsed - result.samples.rbegin();
-  const std::ptrdiff_t leftOut = std::ptrdiff_t(result.samples.size()) - result.usedCount;
-  std::vector<int> run;
-  if (leftOut >= fewest && (before == leftOut || after == leftOut))
+  constexpr std::size_t fewest = 4;
+  // The eyes of a stereo rig see each frame at the same time.
+  std::vector<int> order(samples.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(
+    order.begin(), order.end(), [&](int a, int b) { return samples[std::size_t(a)].frame < samples[std::size_t(b)].frame; });
+  const std::size_t leftOut = samples.size() - std::size_t(result.usedCount);
+  const auto isLeftOut = [&](int i) { return !result.samples[std::size_t(i)].used; };
+  const auto middle = order.begin() + std::ptrdiff_t(leftOut), last = order.end() - std::ptrdiff_t(leftOut);
+  if (leftOut >= fewest && std::all_of(order.begin(), middle, isLeftOut))
   {
-    for (std::ptrdiff_t k = 0; k < leftOut; ++k)
-    {
-      run.push_back(int(before == leftOut ? k : result.usedCount + k));
-    }
+    return { order.begin(), middle };
   }
-  return run;
+  if (leftOut >= fewest && std::all_of(last, order.end(), isLeftOut))
+  {
+    return { last, order.end() };
+  }
+  return {};
 }
 
 /// Whether something slipped: what was left out is one run, and agrees with itself on another solution.
 bool hasSlipped(
   const Samples& samples, const Eyes& eyes, const HandEyeCalibrationOptions& options, const HandEyeCalibrationResult& result)
 {
-  const std::vector<int> run = leftOutRun(result);
+  const std::vector<int> run = leftOutRun(samples, result);
   if (run.empty())
   {
     return false;
@@ -138,6 +142,65 @@ bool hasSlipped(
   }
   const std::vector<double> normalized = normalizedResiduals(samples, eyes, other.pointsToLines, options);
   return std::all_of(run.begin(), run.end(), [&](int i) { return normalized[std::size_t(i)] < options.rejectionFactor; });
+}
+
+/// What is to be said of a solution, and whether it is usable at all.
+/// @param misfit the residuals over what their noise explains
+void giveVerdict(const Samples& samples, const Eyes& eyes, const HandEyeCalibrationOptions& options, double misfit,
+  HandEyeCalibrationResult& result)
+{
+  if (!result.isUsable())
+  {
+    return;
+  }
+  const std::string spot = crampedSpot(samples, eyes, result);
+  const double scale = apparentScale(samples, eyes, result);
+  if (result.placeCount < options.minimumSamples)
+  {
+    result.status = Status::TooFewSamples;
+    result.message = "the ball was at " + std::to_string(result.placeCount) + " places only, at least " +
+      std::to_string(options.minimumSamples) + " are needed (12 to 15 are recommended)";
+  }
+  else if (!(misfit <= options.maximumMisfit))
+  {
+    result.status = Status::PoorFit;
+    result.message = "the solution misses its own samples by " + fixedDigits(result.pointToLineRmsMm, 1) +
+      " mm (RMS): some of them show something else than the ball, or the stylus' tip is wrong";
+  }
+  else if (std::abs(std::log(scale)) > std::log(1 + options.maximumScaleError))
+  {
+    result.status = Status::WrongScale;
+    result.message = "by its apparent size the ball is " + significantDigits(scale, 3) +
+      " times as far away as by tracking: check the ball's radius (mm) and the focal length of the camera file";
+  }
+  else if (hasSlipped(samples, eyes, options, result))
+  {
+    result.status = Status::MarkerMoved;
+    result.message = std::to_string(samples.size() - std::size_t(result.usedCount)) +
+      " samples in a row, at one end of the capture, agree with each other but not with the rest: " +
+      (eyes.size() > 1 ? "the relation of the eyes is wrong, or a marker has slipped" : "a marker has slipped");
+  }
+  else if (!(result.predicted.meanPx <= options.maximumPredictedErrorPx))
+  {
+    result.status = Status::TooUncertain;
+    result.message = "the placements leave " + fixedDigits(result.predicted.meanPx, 1) +
+      " px of predicted error over the working volume" + spot + ": spread them over the image and in depth; what they determine " +
+      "least is " + result.weakestFreedom;
+  }
+  else if (!(result.predicted.meanPx < PoorPx) && !spot.empty())
+  {
+    result.status = Status::TooUncertain;
+    result.message = "poor: " + fixedDigits(result.predicted.meanPx, 1) + " px predicted over the working volume" + spot +
+      ": spread them over the image and in depth; what they determine least is " + result.weakestFreedom;
+  }
+  else
+  {
+    const char* verdict = result.predicted.meanPx < 1 ? "good: " : result.predicted.meanPx < PoorPx ? "fair: " : "poor: ";
+    result.message = verdict + fixedDigits(result.predicted.meanPx, 1) + " px predicted over the working volume (" +
+      fixedDigits(result.predicted.maximumPx, 1) + " px at worst), " + std::to_string(result.usedCount) + " of " +
+      std::to_string(samples.size()) + " samples used" +
+      (result.predicted.meanPx < PoorPx ? "" : "; what they determine least is " + result.weakestFreedom);
+  }
 }
 
 /// Residuals of every sample, sums over the used ones, covariance and verdict.
@@ -172,54 +235,7 @@ void conclude(const Samples& samples, const Eyes& eyes, const HandEyeCalibration
   }
   result.predicted = result.predictedByEye.front();
   result.weakestFreedom = describeWeakestFreedom(result.covariance, (nearest + furthest) / 2);
-  const std::string spot = crampedSpot(samples, eyes, result);
-  const double scale = apparentScale(samples, eyes, result);
-  if (result.isUsable() && result.placeCount < options.minimumSamples)
-  {
-    result.status = Status::TooFewSamples;
-    result.message = "the ball was at " + std::to_string(result.placeCount) + " places only, at least " +
-      std::to_string(options.minimumSamples) + " are needed (12 to 15 are recommended)";
-  }
-  else if (result.isUsable() && !(misfit <= options.maximumMisfit))
-  {
-    result.status = Status::PoorFit;
-    result.message = "the solution misses its own samples by " + fixedDigits(result.pointToLineRmsMm, 1) +
-      " mm (RMS): some of them show something else than the ball, or the stylus' tip is wrong";
-  }
-  else if (result.isUsable() && std::abs(std::log(scale)) > std::log(1 + options.maximumScaleError))
-  {
-    result.status = Status::WrongScale;
-    result.message = "by its apparent size the ball is " + significantDigits(scale, 3) +
-      " times as far away as by tracking: check the ball's radius (mm) and the focal length of the camera file";
-  }
-  else if (result.isUsable() && hasSlipped(samples, eyes, options, result))
-  {
-    result.status = Status::MarkerMoved;
-    result.message = std::to_string(samples.size() - std::size_t(result.usedCount)) +
-      " samples in a row, at one end of the capture, agree with each other but not with the rest: " +
-      (eyes.size() > 1 ? "the relation of the eyes is wrong, or a marker has slipped" : "a marker has slipped");
-  }
-  else if (result.isUsable() && !(result.predicted.meanPx <= options.maximumPredictedErrorPx))
-  {
-    result.status = Status::TooUncertain;
-    result.message = "the placements leave " + fixedDigits(result.predicted.meanPx, 1) +
-      " px of predicted error over the working volume" + spot + ": spread them over the image and in depth; what they determine " +
-      "least is " + result.weakestFreedom;
-  }
-  else if (result.isUsable() && !(result.predicted.meanPx < PoorPx) && !spot.empty())
-  {
-    result.status = Status::TooUncertain;
-    result.message = "poor: " + fixedDigits(result.predicted.meanPx, 1) + " px predicted over the working volume" + spot +
-      ": spread them over the image and in depth; what they determine least is " + result.weakestFreedom;
-  }
-  else if (result.isUsable())
-  {
-    const char* verdict = result.predicted.meanPx < 1 ? "good: " : result.predicted.meanPx < PoorPx ? "fair: " : "poor: ";
-    result.message = verdict + fixedDigits(result.predicted.meanPx, 1) + " px predicted over the working volume (" +
-      fixedDigits(result.predicted.maximumPx, 1) + " px at worst), " + std::to_string(result.usedCount) + " of " +
-      std::to_string(samples.size()) + " samples used" +
-      (result.predicted.meanPx < PoorPx ? "" : "; what they determine least is " + result.weakestFreedom);
-  }
+  giveVerdict(samples, eyes, options, misfit, result);
 }
 
 /// Goes on with the noise that the residuals showed.
@@ -270,7 +286,7 @@ void checkSamples(const Samples& samples, const Eyes& eyes)
   for (const HandEyeSample& sample : samples)
   {
     const bool finite = sample.tip_Marker.allFinite() && sample.ball_Image.allFinite() && sample.ray_Eye.allFinite() &&
-      sample.stylusToMarker.allFinite();
+      sample.stylusToMarker.allFinite() && std::isfinite(sample.sigmaPx) && std::isfinite(sample.apparentDistanceMm);
     if (!finite || sample.eye < 0 || sample.eye >= int(eyes.size()) || !(sample.ray_Eye.norm() > 0))
     {
       throw std::invalid_argument("hand-eye calibration: sample of frame " + std::to_string(sample.frame) +
@@ -337,11 +353,11 @@ HandEyeCalibrationResult calibrateHandEye(const Samples& givenSamples, const Eye
   result.message = solution.message;
   result.iterations = solution.iterations;
   result.conditionNumber = solution.conditionNumber;
+  result.rank = solution.rank;
   if (result.status == Status::NotObservable || result.status == Status::Mirrored || result.status == Status::NotApplicable)
   {
     return result;
   }
-  result.rank = solution.rank;
   result.markerToCamera = solution.pointsToLines;
   result.usedCount = int(used.size());
   for (int i : used)

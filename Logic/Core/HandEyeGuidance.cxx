@@ -93,8 +93,8 @@ Error errorWith(const Place& next, const Covariance6& covariance, const std::vec
     const Eigen::Matrix2d mixed = place.byPose * gained;
     const double before = (place.byPose * covariance).cwiseProduct(place.byPose).sum();
     const double square = before - (mixed * inverse).cwiseProduct(mixed).sum();
-    const double px = std::sqrt(std::max(0.0, square));
-    error.maximumPx = std::max(error.maximumPx, px);
+    const double px = square < 0 ? 0 : std::sqrt(square);  // what is not a number stays none
+    error.maximumPx = px <= error.maximumPx ? error.maximumPx : px;
     error.meanPx += px / double(volume.size());
   }
   return error;

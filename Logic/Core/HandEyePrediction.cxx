@@ -15,6 +15,17 @@
 namespace handeye
 {
 
+namespace
+{
+
+/// The root of a variance, which rounding may leave a little below zero. What is not a number stays none: it is no small error.
+double standardDeviation(double variance)
+{
+  return variance < 0 ? 0 : std::sqrt(variance);
+}
+
+}  // namespace
+
 Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& point_Camera)
 {
   Eigen::Matrix<double, 3, 6> motion;
@@ -30,7 +41,7 @@ Eigen::Matrix3d predictTargetCovariance(const Covariance6& covariance, const Eig
 
 double predictTargetErrorMm(const Covariance6& covariance, const Eigen::Vector3d& point_Camera)
 {
-  return std::sqrt(std::max(0.0, predictTargetCovariance(covariance, point_Camera).trace()));
+  return standardDeviation(predictTargetCovariance(covariance, point_Camera).trace());
 }
 
 std::optional<Eigen::Vector3d> pointSeenAt(const Eye& eye, const Eigen::Vector2d& pixel, double depthMm)
@@ -64,7 +75,7 @@ std::optional<double> predictProjectionErrorPx(
   {
     return std::nullopt;
   }
-  return std::sqrt(std::max(0.0, (*byPose * covariance * byPose->transpose()).trace()));
+  return standardDeviation((*byPose * covariance * byPose->transpose()).trace());
 }
 
 PredictedError predictError(const Covariance6& covariance, const Eye& eye, double nearestMm, double furthestMm)

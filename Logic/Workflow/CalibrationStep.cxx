@@ -94,9 +94,21 @@ void addGuidance(CalibrationStepResult& result, const HandEyeCalibrationOptions&
   result.guidance = suggestPlacement(places, { result.camera }, guidance);
 }
 
+void moveTips(std::vector<CapturedFrame>& frames, const Eigen::Vector3d& correction_Stylus)
+{
+  for (CapturedFrame& captured : frames)
+  {
+    if (captured.tip_Marker)
+    {
+      *captured.tip_Marker += captured.stylusToMarker * correction_Stylus;
+    }
+  }
+}
+
 const HandEyeCalibrationResult& CalibrationStepResult::decisive() const
 {
-  return calibration.isUsable() && right && right->calibration ? *right->calibration : calibration;
+  const bool isRightAmiss = right && right->calibration && !right->calibration->isUsable();
+  return calibration.isUsable() && isRightAmiss ? *right->calibration : calibration;
 }
 
 CalibrationStepResult calibrateCapture(const EyeCapture& capture, const HandEyeCalibrationOptions& options)
@@ -111,7 +123,16 @@ CalibrationStepResult calibrateStereoCapture(const EyeCapture& left, const EyeCa
   if (!leftToRight)
   {
     CalibrationStepResult result = calibrateCapture(left, options);
-    const CalibrationStepResult other = calibrateCapture(right, options);
+    // One stylus has one tip: the right eye takes the tip that the left eye's samples were refined to.
+    HandEyeCalibrationOptions rightOptions = options;
+    rightOptions.refineTip = false;
+    EyeCapture rightCapture = right;
+    if (result.calibration.tipCorrection_Stylus)
+    {
+      rightOptions.tipCovariance_Stylus = result.calibration.refinedTipCovariance_Stylus;
+      moveTips(rightCapture.frames, *result.calibration.tipCorrection_Stylus);
+    }
+    const CalibrationStepResult other = calibrateCapture(rightCapture, rightOptions);
     result.right = { right.camera, other.frames, other.calibration.markerToCamera, other.calibration };
     return result;
   }

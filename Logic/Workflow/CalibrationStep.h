@@ -58,6 +58,9 @@ struct EyeCapture
   std::vector<CapturedFrame> frames;
 };
 
+/// The tips of a capture for a stylus whose tip is by so much (mm) elsewhere than was thought.
+void moveTips(std::vector<CapturedFrame>& frames, const Eigen::Vector3d& correction_Stylus);
+
 /// The depths (mm) between which the ball is to be held; those of the samples where not given.
 using DepthRange = std::optional<std::pair<double, double>>;
 

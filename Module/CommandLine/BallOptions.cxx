@@ -87,6 +87,13 @@ BallDetectionOptions BallOptions::forRecording(const io::Recording& recording, c
   {
     throw CLI::ValidationError("--nearest-mm, --furthest-mm", error.what());
   }
+  const bool asksForMore =
+    !learnAt_.empty() || options.color.hueDeg != 0 || options.nearestMm > 0 || std::isfinite(options.furthestMm);
+  if (options.method == BallDetectionOptions::Method::Hough && asksForMore)
+  {
+    throw CLI::ValidationError("--segmentation",
+      "hough is the paper's pipeline: it looks for red and knows no working range; leave the other ball options out");
+  }
   if (learnAt_.empty())
   {
     return options;

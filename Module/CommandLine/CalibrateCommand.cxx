@@ -7,6 +7,7 @@
 #include "Commands.h"
 #include "CommonOptions.h"
 #include "ResultFiles.h"
+#include "SecondLook.h"
 #include "TextTables.h"
 
 #include <cmath>
@@ -18,6 +19,9 @@ namespace handeye::cli
 
 namespace
 {
+
+/// A first calibration is not trusted to say better than this (px) where the ball is seen.
+constexpr double LeastPredictionPx = 4;
 
 struct CalibrateArguments
 {
@@ -32,18 +36,41 @@ struct CalibrateArguments
   CommandOutput output;
 };
 
-EyeCapture readEye(const CalibrateArguments& arguments, const std::string& recordingPath, const std::string& cameraPath,
+/// One eye's capture, and what it takes to look at its pictures again.
+struct Eye
+{
+  io::Recording recording;
+  BallDetectionOptions ball;
+  EyeCapture capture;
+};
+
+Eye readEye(const CalibrateArguments& arguments, const std::string& recordingPath, const std::string& cameraPath,
   const Eigen::Vector3d& tip_Stylus, const std::string& label)
 {
   const io::CameraFile file = io::readCameraFile(cameraPath);
-  const io::Recording recording = io::Recording::open(recordingPath);
+  io::Recording recording = io::Recording::open(recordingPath);
   arguments.output.warn(file.warnings);
   arguments.output.warn(recording.warnings());
   const CameraModel camera = cameraForRecording(file.camera, recording);
-  return { camera,
-    readCapture(recording, arguments.tools, camera, tip_Stylus, arguments.ballRadiusMm,
-      arguments.ball.forRecording(recording, arguments.output),
-      arguments.output.progress("looking for the ball" + label + ", frame")) };
+  const BallDetectionOptions ball = arguments.ball.forRecording(recording, arguments.output);
+  std::vector<CapturedFrame> frames = readCapture(recording, arguments.tools, camera, tip_Stylus, arguments.ballRadiusMm, ball,
+    arguments.output.progress("looking for the ball" + label + ", frame"));
+  return { std::move(recording), ball, { camera, std::move(frames) } };
+}
+
+/// Decides the frames in which several things looked like the ball. @return whether there were any that could be decided
+bool decideDoubtful(const CalibrateArguments& arguments, Eye& eye, const Eigen::Isometry3d& markerToCamera, double predictedPx,
+  const std::string& label)
+{
+  const double sigmaPx = std::hypot(predictedPx, LeastPredictionPx);
+  const std::vector<int> decided =
+    lookAgain(eye.recording, eye.capture.camera, arguments.ballRadiusMm, eye.ball, markerToCamera, sigmaPx, eye.capture.frames);
+  for (const int frame : decided)
+  {
+    arguments.output.say(
+      "decided              " + label + "frame " + std::to_string(frame) + ": of several balls, the one where the tracker puts it");
+  }
+  return !decided.empty();
 }
 
 /// The frames that are not used, one a line, with the reason.
@@ -123,21 +150,30 @@ int runCalibrate(CalibrateArguments& arguments)
   arguments.calibration.tipCovariance_Stylus = readStylusTipCovariance(arguments.stylus);
   const Eigen::Vector3d tip_Stylus = readStylusTip(arguments.stylus);
   const bool isStereo = !arguments.rightRecording.empty();
-  const EyeCapture left = readEye(arguments, arguments.recording, arguments.camera, tip_Stylus, isStereo ? " (left)" : "");
-  CalibrationStepResult step = [&]
+  Eye left = readEye(arguments, arguments.recording, arguments.camera, tip_Stylus, isStereo ? " (left)" : "");
+  std::optional<Eye> right;
+  std::optional<Eigen::Isometry3d> leftToRight;
+  if (isStereo)
   {
-    if (!isStereo)
+    leftToRight = arguments.leftToRight.empty() ? leftToRight : io::readMatrix4x4(arguments.leftToRight);
+    right = readEye(arguments, arguments.rightRecording, arguments.rightCamera, tip_Stylus, " (right)");
+  }
+  const auto calibrate = [&]
+  {
+    return right ? calibrateStereoCapture(left.capture, right->capture, leftToRight, arguments.calibration)
+                 : calibrateCapture(left.capture, arguments.calibration);
+  };
+  CalibrationStepResult step = calibrate();
+  if (step.isUsable())
+  {
+    const double predictedPx = step.calibration.predicted.maximumPx;
+    bool isDecided = decideDoubtful(arguments, left, step.calibration.markerToCamera, predictedPx, isStereo ? "left " : "");
+    if (right && step.right)
     {
-      return calibrateCapture(left, arguments.calibration);
+      isDecided |= decideDoubtful(arguments, *right, step.right->markerToRightCamera, predictedPx, "right ");
     }
-    std::optional<Eigen::Isometry3d> leftToRight;
-    if (!arguments.leftToRight.empty())
-    {
-      leftToRight = io::readMatrix4x4(arguments.leftToRight);
-    }
-    const EyeCapture right = readEye(arguments, arguments.rightRecording, arguments.rightCamera, tip_Stylus, " (right)");
-    return calibrateStereoCapture(left, right, leftToRight, arguments.calibration);
-  }();
+    step = isDecided ? calibrate() : step;
+  }
   step.tip_Stylus = tip_Stylus + step.calibration.tipCorrection_Stylus.value_or(Eigen::Vector3d::Zero());
   addGuidance(step, arguments.calibration,
     arguments.depthsMm.empty() ? DepthRange() : DepthRange({ arguments.depthsMm[0], arguments.depthsMm[1] }));
