@@ -18,8 +18,11 @@ namespace
 constexpr std::size_t FewestPairs = 8;
 /// A pair disagrees when its distance is this many times the scatter of the others.
 constexpr double RejectionFactor = 4.5;
-/// Leaving pairs out must pay: the scatter falls by this factor at least, otherwise all are kept.
+/// Leaving pairs out must pay: the scatter falls by this factor at least ...
 constexpr double WorthIt = 2.5;
+/// ... or each that is left out is far off on its own account. Few pairs do not tell their own scatter well, and look closer together
+/// than they are after the furthest are gone: the limit is larger for them by this share over the freedoms that they leave.
+constexpr double FewFreedoms = 10;
 constexpr int Rounds = 10;
 
 std::vector<double> distances(const PointLinePairs& pairs, const Eigen::Isometry3d& pointsToLines)
@@ -135,7 +138,17 @@ std::vector<int> findAgreeingPairs(const PointLinePairs& pairs, const PointLineO
     return any;
   }();
   const Fit withAll = fit(pairs, all, judging);
-  const bool pays = !withAll.usable || withAll.sigma > WorthIt * fitted.sigma + rounding;
+  const double freedoms = std::max(1.0, 2.0 * double(kept.size()) - 6);
+  const double farOff = (1 + FewFreedoms / freedoms) * RejectionFactor * fitted.sigma + rounding;
+  double nearestLeftOut = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    if (!std::binary_search(kept.begin(), kept.end(), int(i)))
+    {
+      nearestLeftOut = std::min(nearestLeftOut, fitted.lengths[i]);
+    }
+  }
+  const bool pays = !withAll.usable || withAll.sigma > WorthIt * fitted.sigma + rounding || nearestLeftOut > farOff;
   return pays && 2 * kept.size() > pairs.size() ? kept : all;
 }
 

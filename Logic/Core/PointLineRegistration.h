@@ -62,7 +62,8 @@ struct PointLineOptions
   double maximumRelativeRms = 0.25;
 
   /// Look for pairs that disagree with the rest, from 8 pairs on, and leave them out (sets of four, least median of distances, then
-  /// 4.5 times the scatter of those that agree; only where that lowers the scatter to less than half).
+  /// 4.5 times the scatter of those that agree; only where that lowers the scatter 2.5 times, or where each of them is that far
+  /// off, and further with few pairs).
   bool rejectOutliers = false;
 
   /// @throws std::invalid_argument with a sentence where a number makes no sense
