@@ -4,6 +4,7 @@
 
 #include "CameraModel.h"
 #include "SphereRenderer.h"
+#include "TestCameras.h"
 
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
