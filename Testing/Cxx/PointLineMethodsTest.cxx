@@ -167,7 +167,7 @@ TEST(PointLineGlobal, ProvenMinimum_IsFoundWithoutAnyAllocation)
   {
     const Pairs pairs = viewPairs(random.rigid(100), count, {}, 0.1, 0.0002, random);
     const int before = allocations;
-    const PointLineQuadraticForm form(pairs, summarizePairs(pairs));
+    const PointLineQuadraticForm form(pairs, sumPairs(pairs));
     int steps = 0;
     const Eigen::Matrix3d rotation = form.descend(form.linearStart(), steps);
     const bool proven = form.isCertainlyGlobal(rotation);
@@ -185,7 +185,7 @@ TEST(PointLineGlobal, Proof_IsNotGivenForAnotherMinimum)
   for (int run = 0; run < 400; ++run)
   {
     const Pairs pairs = viewPairs(random.rigid(100), 6, narrowView(), 1, 0.002, random);
-    const PointLineQuadraticForm form(pairs, summarizePairs(pairs));
+    const PointLineQuadraticForm form(pairs, sumPairs(pairs));
     int steps = 0;
     const double lowest = pointLineCost(pairs, bruteForceMinimum(pairs, false, run < 40 ? 10 : 0, random));
     const Eigen::Matrix3d rotation = form.descend(random.rotation(), steps);
