@@ -242,7 +242,7 @@ void moveCentre(const Eigen::Vector3d& shift, PointLineSums& sums)
 PointLineSums sumPairs(const std::vector<PointLinePair>& pairs)
 {
   // Points further from their centre than this many times their spread are summed up again, about the centre: what is left of sums
-  // about the first point would be rounding.
+  // about the mean of the first block would be rounding.
   constexpr double farSquared = 1e6;
   PointLineSums sums;
   if (pairs.empty())
@@ -250,7 +250,11 @@ PointLineSums sumPairs(const std::vector<PointLinePair>& pairs)
     return sums;
   }
   const Blocks blocks(pairs);
-  sums.centroid_Points = pairs.front().point_Points;
+  const int firstCount = blocks.countAt(0);
+  for (int k = 0; k < firstCount; ++k)
+  {
+    sums.centroid_Points += pairs[std::size_t(k)].point_Points / firstCount;
+  }
   for (bool isAgain = false; true; isAgain = true)
   {
     RawSums raw;

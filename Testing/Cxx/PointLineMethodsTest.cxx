@@ -203,6 +203,28 @@ TEST(PointLineGlobal, Proof_IsNotGivenForAnotherMinimum)
   EXPECT_GT(others, 5) << "random starts end elsewhere now and then";
 }
 
+TEST(PointLineGlobal, SixPairs_AreNearlyAlwaysProvenAndThenTheLowest)
+{
+  int proven = 0, runs = 0;
+  for (const EvaluationCamera& view : evaluationCameras())
+  {
+    Random random(10);
+    for (int run = 0; run < 100; ++run, ++runs)
+    {
+      const RegistrationProblem problem = randomProblem(view, 6, random);
+      const PointLineResult result = registerPointsToLines(problem.pairs, pointLineOptions(Method::Global, true));
+      if (result.minimaCount == 1)
+      {
+        ++proven;
+        const Eigen::Isometry3d searched = bruteForceMinimum(problem.pairs, false, 10, random);
+        EXPECT_LE(pointLineCost(problem.pairs, result.pointsToLines), pointLineCost(problem.pairs, searched) * (1 + 1e-9))
+          << view.name << " run " << run;
+      }
+    }
+  }
+  EXPECT_GT(proven, 0.97 * runs);
+}
+
 TEST(PointLineGlobal, ThreePairs_GiveAllSolutionsThatFit)
 {
   Random random(9);
