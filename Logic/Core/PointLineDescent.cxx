@@ -24,6 +24,8 @@ constexpr double LongestTurn = 0.6;
 /// Steps (rad) of the end of the descent, and of its last one: Newton's method squares the error with each.
 constexpr double NearMinimum = 1e-7;
 constexpr double Still = 1e-8;
+/// A convex step may raise the cost by this share of the form's trace: the cost is not known better, the slope is.
+constexpr double Rounding = 4e-16;
 /// Another minimum is told apart if it is this share above the lowest one ...
 constexpr double DistinctCost = 1e-4;
 /// ... and its nine numbers are this far (squared) from those of the lowest one and of its negative; 0.02 is a turn of 6 degrees.
@@ -168,6 +170,7 @@ Eigen::Matrix3d PointLineQuadraticForm::descend(const Eigen::Matrix3d& start, in
   Vector9 slope = quadratic_ * vec(rotation) + linear_;  // half the gradient by vec(R)
   double current = vec(rotation).dot(slope + linear_) + constant_;
   double damping = 0;
+  const double rounding = Rounding * quadratic_.trace();
   for (int step = 0; step < MaximumSteps; ++step)
   {
     ++steps;
@@ -192,7 +195,7 @@ Eigen::Matrix3d PointLineQuadraticForm::descend(const Eigen::Matrix3d& start, in
     const double triedCost = vec(tried).dot(triedSlope + linear_) + constant_;
     // So near to the minimum the cost is all rounding, but the slope is not.
     const bool isNear = length < NearMinimum && isConvex;
-    if (isNear || triedCost <= current * (1 + 1e-14))
+    if (isNear || triedCost <= current * (1 + 1e-14) + (isConvex ? rounding : 0))
     {
       rotation = tried;
       slope = triedSlope;
