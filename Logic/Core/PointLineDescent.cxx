@@ -251,7 +251,7 @@ Eigen::Matrix3d PointLineQuadraticForm::linearStart() const
 
 bool PointLineQuadraticForm::isCertainlyGlobal(const Eigen::Matrix3d& minimum) const
 {
-  // The multipliers A of R^T R = I and B of R R^T = I satisfy slope = R A + B R; the share of A is free. Half of it is nearly always
+  // The multipliers A of R^T R = I and B of R R^T = I satisfy slope = R A + B R; the share of A is free. Half is nearly always
   // right for many points; for few, the direction in which the Lagrangian bends down most says how to change it.
   constexpr int changes = 4;
   const Vector9 r = vec(minimum);

@@ -90,6 +90,27 @@ struct RawSums
   RawSums() { std::fill(std::begin(lowest), std::end(lowest), std::numeric_limits<double>::infinity()); }
 };
 
+/// Inlined into the loop over the blocks, so that it is compiled for the same processors.
+inline void addProducts(
+  const Column (&monomial)[Monomials], const Column (&projector)[Entries], double (&products)[Monomials][Entries][Lanes])
+{
+  for (int m = 0; m < Monomials; ++m)
+  {
+    for (int e = 0; e < Entries; ++e)
+    {
+      for (int lane = 0; lane < Lanes; ++lane)
+      {
+        double sum = 0;
+        for (int k = lane; k < Block; k += Lanes)
+        {
+          sum += monomial[m][k] * projector[e][k];
+        }
+        products[m][e][lane] += sum;
+      }
+    }
+  }
+}
+
 /// Adds up w V times the products of the coordinates relative to `centre`.
 HANDEYE_WIDE_VECTORS void addBlocks(const Blocks& pairs, const Eigen::Vector3d& centre, RawSums& sums)
 {
@@ -143,21 +164,7 @@ HANDEYE_WIDE_VECTORS void addBlocks(const Blocks& pairs, const Eigen::Vector3d& 
       monomial[8][k] = y * z;
       monomial[9][k] = z * z;
     }
-    for (int m = 0; m < Monomials; ++m)
-    {
-      for (int e = 0; e < Entries; ++e)
-      {
-        for (int lane = 0; lane < Lanes; ++lane)
-        {
-          double sum = 0;
-          for (int k = lane; k < Block; k += Lanes)
-          {
-            sum += monomial[m][k] * projector[e][k];
-          }
-          sums.products[m][e][lane] += sum;
-        }
-      }
-    }
+    addProducts(monomial, projector, sums.products);
   }
 }
 

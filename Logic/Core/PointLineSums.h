@@ -13,16 +13,16 @@ namespace handeye
 /// blocks whose numbers lie side by side on the stack, so that the compiler takes several at once; nothing is allocated. Internal.
 struct PointLineSums
 {
-  /// Sums of w V, V = I - d d^T packed as (xx, xy, xz, yy, yz, zz), times 1, x, y, z, xx, xy, xz, yy, yz, zz of the points relative to
-  /// `centroid_Points`.
+  /// Sums of w V, V = I - d d^T packed as (xx, xy, xz, yy, yz, zz), times 1, x, y, z, xx, xy, xz, yy, yz, zz of the points
+  /// relative to `centroid_Points`.
   Eigen::Matrix<double, 6, 10> products = Eigen::Matrix<double, 6, 10>::Zero();
   Eigen::Vector3d centroid_Points = Eigen::Vector3d::Zero();  ///< weighted
   double totalWeight = 0;
   bool hasCommonOrigin = true;
 };
 
-/// @throws std::invalid_argument naming the first pair that holds a number that is none, a direction of length zero or a weight that
-///         is not positive
+/// @throws std::invalid_argument naming the first pair that holds a number that is none, a direction of length zero or a weight
+///         that is not positive
 PointLineSums sumPairs(const std::vector<PointLinePair>& pairs);
 
 /// Of moved points and their lines.
