@@ -24,6 +24,8 @@ constexpr double LongestTurn = 0.6;
 /// Steps (rad) of the end of the descent, and of its last one: Newton's method squares the error with each.
 constexpr double NearMinimum = 1e-7;
 constexpr double Still = 1e-8;
+/// A convex step may raise the cost by this share of the form's trace: the cost is not known better, the slope is.
+constexpr double Rounding = 4e-16;
 /// Another minimum is told apart if it is this share above the lowest one ...
 constexpr double DistinctCost = 1e-4;
 /// ... and its nine numbers are this far (squared) from those of the lowest one and of its negative; 0.02 is a turn of 6 degrees.
@@ -124,6 +126,21 @@ private:
   bool isPositiveDefinite_ = true;
 };
 
+/// The second derivative of the Lagrangian: less A and B, the multipliers of the columns' and of the rows' products.
+Matrix9 withMultipliers(const Matrix9& quadratic, const Eigen::Matrix3d& columns, const Eigen::Matrix3d& rows)
+{
+  Matrix9 lagrangian = quadratic;
+  for (int a = 0; a < 3; ++a)
+  {
+    lagrangian.block<3, 3>(3 * a, 3 * a) -= rows;
+    for (int b = 0; b < 3; ++b)
+    {
+      lagrangian.block<3, 3>(3 * a, 3 * b).diagonal().array() -= columns(a, b);
+    }
+  }
+  return lagrangian;
+}
+
 /// The nearest rotation by Higham's iteration for the polar decomposition; near enough for a start.
 Eigen::Matrix3d roughlyNearestRotation(Eigen::Matrix3d matrix)
 {
@@ -153,6 +170,7 @@ Eigen::Matrix3d PointLineQuadraticForm::descend(const Eigen::Matrix3d& start, in
   Vector9 slope = quadratic_ * vec(rotation) + linear_;  // half the gradient by vec(R)
   double current = vec(rotation).dot(slope + linear_) + constant_;
   double damping = 0;
+  const double rounding = Rounding * quadratic_.trace();
   for (int step = 0; step < MaximumSteps; ++step)
   {
     ++steps;
@@ -177,7 +195,7 @@ Eigen::Matrix3d PointLineQuadraticForm::descend(const Eigen::Matrix3d& start, in
     const double triedCost = vec(tried).dot(triedSlope + linear_) + constant_;
     // So near to the minimum the cost is all rounding, but the slope is not.
     const bool isNear = length < NearMinimum && isConvex;
-    if (isNear || triedCost <= current * (1 + 1e-14))
+    if (isNear || triedCost <= current * (1 + 1e-14) + (isConvex ? rounding : 0))
     {
       rotation = tried;
       slope = triedSlope;
@@ -233,28 +251,39 @@ Eigen::Matrix3d PointLineQuadraticForm::linearStart() const
 
 bool PointLineQuadraticForm::isCertainlyGlobal(const Eigen::Matrix3d& minimum) const
 {
+  // The multipliers A of R^T R = I and B of R R^T = I satisfy slope = R A + B R; the share of A is free. Half is nearly always
+  // right for many points; for few, the direction in which the Lagrangian bends down most says how to change it.
+  constexpr int changes = 4;
   const Vector9 r = vec(minimum);
   const Vector9 slope = quadratic_ * r + linear_;
   const double cost = std::max(0.0, r.dot(slope + linear_) + constant_);
-  // Of the multipliers slope = R A + B R, half is given to each side.
-  const Eigen::Matrix3d product = minimum.transpose() * unvec(slope);
-  const Eigen::Matrix3d columns = 0.25 * (product + product.transpose());
-  const Eigen::Matrix3d rows = minimum * columns * minimum.transpose();
+  const Eigen::Matrix3d moment = unvec(slope) * minimum.transpose(), both = 0.5 * (moment + moment.transpose());
   const double gap = DistinctCost / DistinctDistance * cost + 1e-14 * quadratic_.trace();
   // Of lines through one centre the Lagrangian is flat along the minimum itself: that direction is lifted.
   const double lift = linear_.isZero(0) ? quadratic_.trace() / 27 : 0;
-  Matrix9 lagrangian = quadratic_;
-  lagrangian.noalias() += (lift * r) * r.transpose();
-  lagrangian.diagonal().array() -= gap;
-  for (int a = 0; a < 3; ++a)
+  Matrix9 lifted = quadratic_;
+  lifted.noalias() += (lift * r) * r.transpose();
+  lifted.diagonal().array() -= gap;
+  const Eigen::Matrix3d halfTurned = 0.5 * both * minimum;
+  Eigen::Matrix3d columns = minimum.transpose() * halfTurned;
+  for (int change = 0; true; ++change)
   {
-    lagrangian.block<3, 3>(3 * a, 3 * a) -= rows;
-    for (int b = 0; b < 3; ++b)
+    const Eigen::Matrix3d turned = minimum * columns, rows = both - turned * minimum.transpose();
+    const Matrix9 lagrangian = withMultipliers(lifted, columns, rows);
+    if (Cholesky9(lagrangian).isPositiveDefinite())
     {
-      lagrangian.block<3, 3>(3 * a, 3 * b).diagonal().array() -= columns(a, b);
+      return true;
     }
+    if (change == changes)
+    {
+      return false;
+    }
+    const Eigen::SelfAdjointEigenSolver<Matrix9> spectrum(lagrangian);
+    const Eigen::Matrix3d lowest = unvec(spectrum.eigenvectors().col(0)), inPlace = minimum.transpose() * lowest;
+    // How the lowest curvature changes with A; the step brings it to half a gap above zero, were it linear.
+    const Eigen::Matrix3d ascent = inPlace * inPlace.transpose() - lowest.transpose() * lowest;
+    columns += (0.5 * gap - spectrum.eigenvalues()(0)) / std::max(ascent.squaredNorm(), 1e-30) * ascent;
   }
-  return Cholesky9(lagrangian).isPositiveDefinite();
 }
 
 }  // namespace handeye

@@ -145,12 +145,14 @@ void solveGlobal(
   if (pairs.size() > EnoughPairs && form.isCertainlyGlobal(first))
   {
     result.pointsToLines = form.pointsToLines(first);
-    if (!options.linesAreRays || areMostInFront(pairs, result.pointsToLines))
+    const std::size_t inFront = measureResiduals(pairs, form, result);
+    if (!options.linesAreRays || 2 * inFront > pairs.size())
     {
       result.minimaCount = 1;
       result.status = Status::Ok;
       return;
     }
+    result.residualsMm.clear();
   }
   const std::vector<Minimum> minima = findMinima(form, first, result.iterations);
   result.minimaCount = int(minima.size());

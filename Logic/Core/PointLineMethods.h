@@ -10,7 +10,8 @@ namespace handeye
 {
 
 /// The methods of registerPointsToLines() and what they share. Each sets the status, the message where there is something to say,
-/// the transform and the iterations of a result; residuals, information and covariance are for the caller. Internal.
+/// the transform and the iterations of a result; information and covariance are for the caller, and so are residuals that are
+/// missing. Internal.
 
 using PointLinePairs = std::vector<PointLinePair>;
 
@@ -27,6 +28,9 @@ void solveMaximumLikelihood(
 
 /// The pairs that agree with each other, ascending; all of them where leaving out the others would not lower the scatter much.
 std::vector<int> findAgreeingPairs(const PointLinePairs& pairs, const PointLineOptions& options);
+
+/// Sets the residuals of a transform and their root mean square. @returns how many points lie in front of their ray's origin
+std::size_t measureResiduals(const PointLinePairs& pairs, const PointLineQuadraticForm& form, PointLineResult& result);
 
 /// The moved point relative to its line, across the line.
 Eigen::Vector3d offsetFromLine(const PointLinePair& pair, const Eigen::Isometry3d& pointsToLines);

@@ -8,8 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 
 namespace handeye
 {
@@ -51,30 +49,6 @@ int monomialOf(int a, int b)
   return a == 0 ? 4 + b : a == 1 ? 6 + b : 9;
 }
 
-/// w V, packed, and the ten products of a point's coordinates.
-inline void writeTerms(const PointLinePair& pair, const Eigen::Vector3d& centroid, double* projector, double* monomials)
-{
-  const double *d = pair.direction_Lines.data(), *p = pair.point_Points.data();
-  const double xx = d[0] * d[0], yy = d[1] * d[1], zz = d[2] * d[2], scale = pair.weight / (xx + yy + zz);
-  projector[0] = scale * (yy + zz);
-  projector[1] = -scale * d[0] * d[1];
-  projector[2] = -scale * d[0] * d[2];
-  projector[3] = scale * (xx + zz);
-  projector[4] = -scale * d[1] * d[2];
-  projector[5] = scale * (xx + yy);
-  const double x = p[0] - centroid[0], y = p[1] - centroid[1], z = p[2] - centroid[2];
-  monomials[0] = 1;
-  monomials[1] = x;
-  monomials[2] = y;
-  monomials[3] = z;
-  monomials[4] = x * x;
-  monomials[5] = x * y;
-  monomials[6] = x * z;
-  monomials[7] = y * y;
-  monomials[8] = y * z;
-  monomials[9] = z * z;
-}
-
 Eigen::Vector3d apply(const Packed& packed, const Eigen::Vector3d& v)
 {
   return { packed(0) * v.x() + packed(1) * v.y() + packed(2) * v.z(), packed(1) * v.x() + packed(3) * v.y() + packed(4) * v.z(),
@@ -83,72 +57,25 @@ Eigen::Vector3d apply(const Packed& packed, const Eigen::Vector3d& v)
 
 }  // namespace
 
-PointLineSummary summarizePairs(const std::vector<PointLinePair>& pairs)
-{
-  PointLineSummary summary;
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-  {
-    const PointLinePair& pair = pairs[i];
-    // A product with zero is zero unless a number is infinite or none.
-    const double zero = 0 * (pair.point_Points.sum() + pair.origin_Lines.sum() + pair.direction_Lines.sum() + pair.weight);
-    const double squaredLength = pair.direction_Lines.squaredNorm();
-    if (!(zero == 0 && squaredLength > 0 && squaredLength < std::numeric_limits<double>::infinity() && pair.weight > 0))
-    {
-      throw std::invalid_argument("point and line " + std::to_string(i + 1) +
-        ": finite numbers, a direction that is not zero and a positive weight are expected");
-    }
-    summary.centroid_Points += pair.weight * pair.point_Points;
-    summary.totalWeight += pair.weight;
-    summary.hasCommonOrigin = summary.hasCommonOrigin && pair.origin_Lines == pairs.front().origin_Lines;
-  }
-  summary.centroid_Points /= std::max(summary.totalWeight, 1e-300);
-  return summary;
-}
-
-PointLineQuadraticForm::PointLineQuadraticForm(const std::vector<PointLinePair>& pairs, const PointLineSummary& summary)
-  : totalWeight_(summary.totalWeight)
+PointLineQuadraticForm::PointLineQuadraticForm(const std::vector<PointLinePair>& pairs, const PointLineSums& sums)
+  : sums_(sums)
   , linesCentre_(pairs.front().origin_Lines)
-  , centroid_(summary.centroid_Points)
 {
-  sumProducts(pairs);
-  if (!summary.hasCommonOrigin)
+  if (!sums_.hasCommonOrigin)
   {
     sumOffsets(pairs);
   }
   Matrix39 moment;
   for (int a = 0; a < 3; ++a)
   {
-    moment.middleCols<3>(3 * a) = unpack(products_.col(1 + a));
+    moment.middleCols<3>(3 * a) = unpack(sums_.products.col(1 + a));
     for (int b = a; b < 3; ++b)
     {
-      quadratic_.block<3, 3>(3 * a, 3 * b) = unpack(products_.col(monomialOf(a, b)));
+      quadratic_.block<3, 3>(3 * a, 3 * b) = unpack(sums_.products.col(monomialOf(a, b)));
       quadratic_.block<3, 3>(3 * b, 3 * a) = quadratic_.block<3, 3>(3 * a, 3 * b);
     }
   }
-  eliminateTranslation(unpack(products_.col(0)), moment);
-}
-
-void PointLineQuadraticForm::sumProducts(const std::vector<PointLinePair>& pairs)
-{
-  // All that the cost holds of a point is its products (1, x, y, z, xx, xy, ...) with w V. Blocks of pairs become one product of
-  // matrices, which keeps the sums in registers.
-  constexpr int block = 4;
-  Eigen::Matrix<double, 6, block> projectors;
-  Eigen::Matrix<double, 10, block> monomials;
-  const std::size_t inBlocks = pairs.size() / block * block;
-  for (std::size_t first = 0; first < inBlocks; first += block)
-  {
-    for (int k = 0; k < block; ++k)
-    {
-      writeTerms(pairs[first + std::size_t(k)], centroid_, projectors.col(k).data(), monomials.col(k).data());
-    }
-    products_ += projectors.lazyProduct(monomials.transpose());
-  }
-  for (std::size_t i = inBlocks; i < pairs.size(); ++i)
-  {
-    writeTerms(pairs[i], centroid_, projectors.data(), monomials.data());
-    products_ += projectors.col(0).lazyProduct(monomials.col(0).transpose());
-  }
+  eliminateTranslation(unpack(sums_.products.col(0)), moment);
 }
 
 void PointLineQuadraticForm::sumOffsets(const std::vector<PointLinePair>& pairs)
@@ -158,11 +85,11 @@ void PointLineQuadraticForm::sumOffsets(const std::vector<PointLinePair>& pairs)
   {
     offset += apply(weightedProjector(pair), pair.origin_Lines - linesCentre_);
   }
-  linesCentre_ += unpack(products_.col(0)).ldlt().solve(offset);
+  linesCentre_ += unpack(sums_.products.col(0)).ldlt().solve(offset);
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
   for (const PointLinePair& pair : pairs)
   {
-    const Eigen::Vector3d x = pair.point_Points - centroid_, origin = pair.origin_Lines - linesCentre_;
+    const Eigen::Vector3d x = pair.point_Points - sums_.centroid_Points, origin = pair.origin_Lines - linesCentre_;
     const Eigen::Vector3d off = apply(weightedProjector(pair), origin);
     moments += off * x.transpose();
     constant_ += origin.dot(off);
@@ -178,14 +105,14 @@ Eigen::Matrix<double, 6, 6> PointLineQuadraticForm::centredInformation(const Eig
   for (int a = 0; a < 3; ++a)
   {
     const Eigen::Matrix3d left = skew(rotation.col(a));
-    mixed += left * unpack(products_.col(1 + a));
+    mixed += left * unpack(sums_.products.col(1 + a));
     for (int b = 0; b < 3; ++b)
     {
-      const Eigen::Matrix3d half = left * unpack(products_.col(monomialOf(std::min(a, b), std::max(a, b))));
+      const Eigen::Matrix3d half = left * unpack(sums_.products.col(monomialOf(std::min(a, b), std::max(a, b))));
       turns -= half * skew(rotation.col(b));
     }
   }
-  information << turns, mixed, mixed.transpose(), unpack(products_.col(0));
+  information << turns, mixed, mixed.transpose(), unpack(sums_.products.col(0));
   return information;
 }
 
@@ -195,9 +122,9 @@ double PointLineQuadraticForm::spread() const
   double sum = 0;
   for (int a = 0; a < 3; ++a)
   {
-    sum += unpack(products_.col(monomialOf(a, a))).trace();
+    sum += unpack(sums_.products.col(monomialOf(a, a))).trace();
   }
-  return std::sqrt(std::max(0.0, sum / (2 * totalWeight_)));
+  return std::sqrt(std::max(0.0, sum / (2 * sums_.totalWeight)));
 }
 
 void PointLineQuadraticForm::eliminateTranslation(const Eigen::Matrix3d& sum, const Matrix39& moment)
@@ -222,7 +149,7 @@ double PointLineQuadraticForm::cost(const Eigen::Matrix3d& rotation) const
 
 Eigen::Vector3d PointLineQuadraticForm::translation(const Eigen::Matrix3d& rotation) const
 {
-  return rotationToTranslation_ * vec(rotation) + linesCentre_ - rotation * centroid_;
+  return rotationToTranslation_ * vec(rotation) + linesCentre_ - rotation * sums_.centroid_Points;
 }
 
 Eigen::Isometry3d PointLineQuadraticForm::pointsToLines(const Eigen::Matrix3d& rotation) const

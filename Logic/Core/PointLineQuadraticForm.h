@@ -2,35 +2,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "PointLineRegistration.h"
+#include "PointLineSums.h"
 
 #include <vector>
 
 namespace handeye
 {
 
-/// What one look at the pairs tells. Internal.
-struct PointLineSummary
-{
-  Eigen::Vector3d centroid_Points = Eigen::Vector3d::Zero();  ///< weighted
-  double totalWeight = 0;
-  bool hasCommonOrigin = true;
-};
-
-/// @throws std::invalid_argument naming the first pair that holds a number that is none
-PointLineSummary summarizePairs(const std::vector<PointLinePair>& pairs);
-
 /// The point-to-line cost with its translation eliminated: f(R) = r^T Q r + 2 q^T r + c, r = the columns of R, one below the other.
 ///
 /// Points are taken relative to their centroid and lines relative to the point nearest to all of them, which keeps Q well scaled.
-/// Built in one pass (two if the lines do not share an origin) over the pairs; nothing is allocated. Internal to the solver.
+/// Lines that do not share an origin take two more passes over the pairs; nothing is allocated. Internal to the solver.
 class PointLineQuadraticForm
 {
 public:
   using Vector9 = Eigen::Matrix<double, 9, 1>;
   using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
-  PointLineQuadraticForm(const std::vector<PointLinePair>& pairs, const PointLineSummary& summary);
+  PointLineQuadraticForm(const std::vector<PointLinePair>& pairs, const PointLineSums& sums);
 
   /// False where the lines are parallel, so that no translation can be computed.
   bool determinesTranslation() const { return determinesTranslation_; }
@@ -57,24 +46,19 @@ public:
   /// from the sums that the form is made of.
   Eigen::Matrix<double, 6, 6> centredInformation(const Eigen::Matrix3d& rotation) const;
   double spread() const;
-  const Eigen::Vector3d& centroid_Points() const { return centroid_; }
+  const Eigen::Vector3d& centroid_Points() const { return sums_.centroid_Points; }
+  bool hasCommonOrigin() const { return sums_.hasCommonOrigin; }
 
 private:
-  using Products = Eigen::Matrix<double, 6, 10>;
-
-  void sumProducts(const std::vector<PointLinePair>& pairs);
   void sumOffsets(const std::vector<PointLinePair>& pairs);
   void eliminateTranslation(const Eigen::Matrix3d& sum, const Eigen::Matrix<double, 3, 9>& moment);
 
-  /// Sums of w V, packed as (xx, xy, xz, yy, yz, zz), times 1, x, y, z, xx, xy, xz, yy, yz, zz of the centred points.
-  Products products_ = Products::Zero();
-  double totalWeight_ = 0;
+  PointLineSums sums_;
   Matrix9 quadratic_ = Matrix9::Zero();
   Vector9 linear_ = Vector9::Zero();
   double constant_ = 0;
   Eigen::Matrix<double, 3, 9> rotationToTranslation_ = Eigen::Matrix<double, 3, 9>::Zero();
   Eigen::Vector3d linesCentre_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d centroid_ = Eigen::Vector3d::Zero();
   bool determinesTranslation_ = false;
 };
 

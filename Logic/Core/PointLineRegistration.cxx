@@ -71,20 +71,9 @@ void reportFreedom(const Eigen::Matrix<double, 6, 1>& freedom, PointLineResult& 
     : "a translation is not determined, that along " + inWords(freedom.tail<3>()) + " of the lines' frame: the lines are parallel";
 }
 
-/// Residuals, and what the data determine.
-void measure(const PointLinePairs& pairs, const PointLineQuadraticForm& form, PointLineResult& result)
+/// What the data determine.
+void measure(const PointLineQuadraticForm& form, PointLineResult& result)
 {
-  double squares = 0;
-  result.residualsMm.resize(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-  {
-    const PointLinePair& pair = pairs[i];
-    const Eigen::Vector3d offset = result.pointsToLines * pair.point_Points - pair.origin_Lines;
-    const double square = offset.cross(pair.direction_Lines).squaredNorm() / pair.direction_Lines.squaredNorm();
-    result.residualsMm[i] = std::sqrt(square);
-    squares += square;
-  }
-  result.rmsMm = std::sqrt(squares / double(pairs.size()));
   Matrix6 centred = form.centredInformation(result.pointsToLines.linear());
   result.information = shifted(centred, result.pointsToLines.linear() * form.centroid_Points());
   // Turn about the centroid, by the spread as the unit of length, so that the six numbers are comparable.
@@ -206,7 +195,7 @@ PointLineResult registerPointsToLines(
   const PointLinePairs& pairs, const std::vector<PointLineNoise>& noise, const PointLineOptions& options)
 {
   options.check();
-  const PointLineSummary summary = summarizePairs(pairs);
+  const PointLineSums sums = sumPairs(pairs);
   checkNoise(pairs, noise);
   PointLineResult result;
   if (pairs.size() < MinimumPairs)
@@ -214,7 +203,7 @@ PointLineResult registerPointsToLines(
     if (pairs.size() + 1 == MinimumPairs)
     {
       PointLineResult candidates;
-      solveGlobal(pairs, PointLineQuadraticForm(pairs, summary), options, candidates);
+      solveGlobal(pairs, PointLineQuadraticForm(pairs, sums), options, candidates);
       result.solutions = candidates.status == Status::Ok ? std::vector<Eigen::Isometry3d>{ candidates.pointsToLines }
                                                          : std::move(candidates.solutions);
     }
@@ -226,17 +215,22 @@ PointLineResult registerPointsToLines(
   {
     return registerWhatAgrees(pairs, noise, options);
   }
-  const PointLineQuadraticForm form(pairs, summary);
+  const PointLineQuadraticForm form(pairs, sums);
   solve(pairs, form, options, result);
   if (result.status == Status::NotObservable || result.status == Status::NotApplicable)
   {
     return result;
   }
-  measure(pairs, form, result);
+  if (result.residualsMm.empty())
+  {
+    measureResiduals(pairs, form, result);
+  }
+  measure(form, result);
   if (result.isUsable() && options.method == Method::MaximumLikelihood)
   {
     solveMaximumLikelihood(pairs, noise, options, result);
-    measure(pairs, form, result);
+    measureResiduals(pairs, form, result);
+    measure(form, result);
   }
   if (result.isUsable() && result.rmsMm > options.maximumRelativeRms * form.spread() && result.rmsMm > 0)
   {
@@ -260,6 +254,14 @@ Matrix6 informationMatrix(const PointLinePairs& pairs, const Eigen::Isometry3d& 
   }
   information.bottomLeftCorner<3, 3>() = information.topRightCorner<3, 3>().transpose();
   return information;
+}
+
+std::size_t measureResiduals(const PointLinePairs& pairs, const PointLineQuadraticForm& form, PointLineResult& result)
+{
+  result.residualsMm.resize(pairs.size());
+  const PointLineDistances distances = measureDistances(pairs, result.pointsToLines, form.hasCommonOrigin(), result.residualsMm);
+  result.rmsMm = std::sqrt(distances.squaresMm2 / double(pairs.size()));
+  return distances.inFront;
 }
 
 Eigen::Vector3d offsetFromLine(const PointLinePair& pair, const Eigen::Isometry3d& pointsToLines)

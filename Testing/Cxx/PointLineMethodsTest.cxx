@@ -167,7 +167,7 @@ TEST(PointLineGlobal, ProvenMinimum_IsFoundWithoutAnyAllocation)
   {
     const Pairs pairs = viewPairs(random.rigid(100), count, {}, 0.1, 0.0002, random);
     const int before = allocations;
-    const PointLineQuadraticForm form(pairs, summarizePairs(pairs));
+    const PointLineQuadraticForm form(pairs, sumPairs(pairs));
     int steps = 0;
     const Eigen::Matrix3d rotation = form.descend(form.linearStart(), steps);
     const bool proven = form.isCertainlyGlobal(rotation);
@@ -185,7 +185,7 @@ TEST(PointLineGlobal, Proof_IsNotGivenForAnotherMinimum)
   for (int run = 0; run < 400; ++run)
   {
     const Pairs pairs = viewPairs(random.rigid(100), 6, narrowView(), 1, 0.002, random);
-    const PointLineQuadraticForm form(pairs, summarizePairs(pairs));
+    const PointLineQuadraticForm form(pairs, sumPairs(pairs));
     int steps = 0;
     const double lowest = pointLineCost(pairs, bruteForceMinimum(pairs, false, run < 40 ? 10 : 0, random));
     const Eigen::Matrix3d rotation = form.descend(random.rotation(), steps);
@@ -201,6 +201,28 @@ TEST(PointLineGlobal, Proof_IsNotGivenForAnotherMinimum)
     }
   }
   EXPECT_GT(others, 5) << "random starts end elsewhere now and then";
+}
+
+TEST(PointLineGlobal, SixPairs_AreNearlyAlwaysProvenAndThenTheLowest)
+{
+  int proven = 0, runs = 0;
+  for (const EvaluationCamera& view : evaluationCameras())
+  {
+    Random random(10);
+    for (int run = 0; run < 100; ++run, ++runs)
+    {
+      const RegistrationProblem problem = randomProblem(view, 6, random);
+      const PointLineResult result = registerPointsToLines(problem.pairs, pointLineOptions(Method::Global, true));
+      if (result.minimaCount == 1)
+      {
+        ++proven;
+        const Eigen::Isometry3d searched = bruteForceMinimum(problem.pairs, false, 10, random);
+        EXPECT_LE(pointLineCost(problem.pairs, result.pointsToLines), pointLineCost(problem.pairs, searched) * (1 + 1e-9))
+          << view.name << " run " << run;
+      }
+    }
+  }
+  EXPECT_GT(proven, 0.97 * runs);
 }
 
 TEST(PointLineGlobal, ThreePairs_GiveAllSolutionsThatFit)
