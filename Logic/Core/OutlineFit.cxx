@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutlineFit.h"
 
+#include "EvenLightFit.h"
 #include "OutlineEdges.h"
 #include "Statistics.h"
 
@@ -200,6 +201,7 @@ public:
         return std::nullopt;
       }
     }
+    refineInEvenLight();
     fit_.twoSidedWidthPx = measureWidths().twoSidedPx;
     return fit_;
   }
@@ -224,6 +226,16 @@ private:
   }
 
   EdgeWidths measureWidths() const { return measureEdgeWidths(light_, fit_.cone.outline(camera_, FewestNormals), radiusPx()); }
+
+  /// What is known of the edge points, their scatter above all, stays as it is.
+  void refineInEvenLight()
+  {
+    const std::optional<Eigen::Vector3d> step = fitInEvenLight(light_, outline_, { step_, supportIndices_, radiusPx(), fit_.blurPx });
+    if (step)
+    {
+      fit_.cone = lookedAround_.moved(*step);
+    }
+  }
 
   bool fitRays()
   {
@@ -261,9 +273,12 @@ private:
     {
       movedPx_ = std::max(movedPx_, std::abs(rate.dot(step.step())));
     }
-    fit_.cone = fit_.cone.moved(step.step());
+    lookedAround_ = fit_.cone;
+    step_ = step.step();
+    fit_.cone = lookedAround_.moved(step_);
     fit_.support_Image.clear();
     fit_.supportTurns.clear();
+    supportIndices_.clear();
     const double limit = std::max(SupportPx, SupportSigmas * fit_.sigmaPx);
     for (std::size_t i = 0; i < found_.edges.size(); ++i)
     {
@@ -272,6 +287,7 @@ private:
         const OutlineEdge& edge = found_.edges[i];
         fit_.support_Image.push_back(outline_.points_Image[edge.index] + edge.offsetPx * outline_.normals_Image[edge.index]);
         fit_.supportTurns.push_back(outline_.turns[edge.index]);
+        supportIndices_.push_back(edge.index);
       }
     }
     fit_.visibleShare = double(fit_.support_Image.size()) / searched_;
@@ -281,7 +297,10 @@ private:
   const LinearLightImage& light_;
   const CameraModel& camera_;
   OutlineFit fit_;
-  SphereCone::Outline outline_;
+  std::vector<std::size_t> supportIndices_;
+  SphereCone lookedAround_;
+  SphereCone::Outline outline_;  ///< of that
+  Eigen::Vector3d step_ = Eigen::Vector3d::Zero();  ///< from that to the fit
   OutlineEdges found_;
   int searched_ = 0;
   double reachPx_ = 0;

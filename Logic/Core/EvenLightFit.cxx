@@ -1,0 +1,380 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "EvenLightFit.h"
+
+#include "EdgeProfiles.h"
+#include "OutlinePixels.h"
+#include "Statistics.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace handeye
+{
+
+namespace
+{
+
+/// The stretches that the light on either side is averaged over start this many blurs from the outline, and are so wide (px).
+constexpr double BlursToStretch = 3;
+constexpr double StretchPx = 4;
+/// Deeper inside than this share of the radius there is no outline.
+constexpr double DeepestShare = 0.9;
+/// Normals to either side whose light is averaged.
+constexpr int NormalsToEitherSide = 8;
+constexpr std::size_t FewestNormals = 12;
+constexpr int Rounds = 4;
+/// Squares of differences in units of their variance: between places that have the same light, of normals that have what the model says,
+/// and of a pixel that counts.
+constexpr float SameLight = 32;
+constexpr float LargestOfNormal = 2.0F;
+constexpr float LargestOfPixel = 36;
+constexpr std::size_t MostLights = 8;
+/// At least so many of the normals that there is light for have what the model says.
+constexpr double CleanShare = 0.3;
+/// Of the change of the light between the nearer and the further half of a stretch.
+constexpr float LargestChange = 2.5F;
+
+/// Sums over pixels.
+struct LightSum
+{
+  Eigen::Vector3f light = Eigen::Vector3f::Zero();
+  float count = 0;
+
+  void add(const Eigen::Vector3f& value)
+  {
+    light += value;
+    ++count;
+  }
+  LightSum& operator+=(const LightSum& other)
+  {
+    light += other.light;
+    count += other.count;
+    return *this;
+  }
+  Eigen::Vector3f mean() const { return light / count; }
+};
+
+/// Of a channel's light by the noise of its encoded value.
+Eigen::Vector3f variance(const Eigen::Vector3f& light)
+{
+  const Eigen::Vector3f slopes = light.unaryExpr([](float value) { return LinearLightImage::slope(value); });
+  return slopes.cwiseAbs2();
+}
+
+/// The light on one side of the outline, normal by normal.
+class Side
+{
+public:
+  explicit Side(std::size_t count)
+    : near_(count)
+    , far_(count)
+    , levels_(count, Eigen::Vector3f::Zero())
+    , variances_(count, Eigen::Vector3f::Ones())
+    , isKnown_(count)
+  {
+  }
+
+  void add(std::size_t normal, bool isNear, const Eigen::Vector3f& light) { (isNear ? near_ : far_)[normal].add(light); }
+
+  bool isKnown(std::size_t normal) const { return isKnown_[normal]; }
+  const Eigen::Vector3f& level(std::size_t normal) const { return levels_[normal]; }
+  const Eigen::Vector3f& variance(std::size_t normal) const { return variances_[normal]; }
+
+  /// Averages over neighbours among the normals that are good; the others have the light of their good neighbours.
+  void average(const std::vector<char>& isGood)
+  {
+    changes_.clear();
+    sums_.assign(near_.size(), {});
+    for (std::size_t i = 0; i < near_.size(); ++i)
+    {
+      const LightSum near = around(near_, isGood, i), far = around(far_, isGood, i);
+      isKnown_[i] = near.count > 0 && far.count > 0;
+      if (isKnown_[i])
+      {
+        sums_[i] = near;
+        sums_[i] += far;
+        set(i, sums_[i].mean());
+        const Eigen::Vector3f change = near.mean() - far.mean();
+        if (isGood[i])
+        {
+          changes_.push_back(
+            double(change.cwiseAbs2().cwiseQuotient(variances_[i]).sum() / 3 / (1 / near.count + 1 / far.count)));
+        }
+      }
+    }
+  }
+
+  /// In units of the noise' variance.
+  double change() const { return changes_.empty() ? 0 : median(changes_); }
+
+  /// Where the light is the same but for the noise, all of it is averaged.
+  void gather(float noiseVariance, const std::vector<char>& isGood)
+  {
+    struct Common
+    {
+      Eigen::Vector3f level;
+      LightSum all;
+      std::vector<std::size_t> normals;
+    };
+    std::vector<Common> lights;
+    for (std::size_t i = 0; i < near_.size(); ++i)
+    {
+      if (!isKnown_[i])
+      {
+        continue;
+      }
+      const auto isSame = [&](const Common& common)
+      {
+        return (common.level - levels_[i]).cwiseAbs2().cwiseQuotient(variances_[i]).sum() * sums_[i].count <
+          SameLight * noiseVariance;
+      };
+      auto common = std::find_if(lights.begin(), lights.end(), isSame);
+      if (common == lights.end())
+      {
+        if (lights.size() == MostLights)
+        {
+          continue;
+        }
+        lights.push_back({ levels_[i], {}, {} });
+        common = lights.end() - 1;
+      }
+      if (isGood[i])
+      {
+        common->all += near_[i];
+        common->all += far_[i];
+      }
+      common->normals.push_back(i);
+    }
+    for (const Common& common : lights)
+    {
+      if (common.all.count > 0)
+      {
+        const Eigen::Vector3f mean = common.all.mean(), noise = handeye::variance(mean);
+        for (const std::size_t i : common.normals)
+        {
+          levels_[i] = mean;
+          variances_[i] = noise;
+        }
+      }
+    }
+  }
+
+private:
+  void set(std::size_t i, const Eigen::Vector3f& level)
+  {
+    levels_[i] = level;
+    variances_[i] = handeye::variance(level);
+  }
+
+  static LightSum around(const std::vector<LightSum>& sums, const std::vector<char>& isGood, std::size_t i)
+  {
+    LightSum sum;
+    const int count = int(sums.size());
+    for (int k = -NormalsToEitherSide; k <= NormalsToEitherSide; ++k)
+    {
+      const auto j = std::size_t((int(i) + k + count) % count);
+      if (isGood[j])
+      {
+        sum += sums[j];
+      }
+    }
+    return sum;
+  }
+
+  std::vector<LightSum> near_, far_;
+  std::vector<LightSum> sums_;
+  std::vector<Eigen::Vector3f> levels_, variances_;
+  std::vector<char> isKnown_;
+  std::vector<double> changes_;
+};
+
+/// The fit to the pixels, round by round.
+class EvenLightFitter
+{
+public:
+  EvenLightFitter(const LinearLightImage& light, const SphereCone::Outline& outline, const EvenLightStart& start)
+    : outline_(outline)
+    , step_(start.step)
+    , blur_(std::max(start.blurPx, EdgeProfiles::SharpestPx))
+    , inside_(outline.points_Image.size())
+    , outside_(outline.points_Image.size())
+    , isGood_(outline.points_Image.size(), 0)
+  {
+    for (const std::size_t index : start.support)
+    {
+      isGood_[index] = 1;
+    }
+    const double near = BlursToStretch * blur_, far = near + StretchPx;
+    const double deepest = std::min(far, DeepestShare * start.radiusPx);
+    pixels_ = pixelsAlongOutline(light, outline, start.radiusPx, deepest, far);
+    for (OutlinePixel& pixel : pixels_)
+    {
+      const double offset = double(pixel.offsetPx) - shift(pixel.index);
+      if (offset < -near)
+      {
+        inside_.add(pixel.index, offset > -(near + deepest) / 2, pixel.light);
+      }
+      else if (offset > near)
+      {
+        outside_.add(pixel.index, offset < (near + far) / 2, pixel.light);
+      }
+    }
+  }
+
+  std::optional<Eigen::Vector3d> fit()
+  {
+    average();
+    for (int round = 0; round < Rounds; ++round)
+    {
+      if (!judgeNormals())
+      {
+        return std::nullopt;
+      }
+      average();
+      if (std::getenv("EVEN"))
+      {
+        std::printf("round %d sigma %.3f (grey levels) change in %.2f out %.2f of sigma^2; blur %.3f step %.6f %.6f %.6f good %d of %d\n",
+          round, 255 * std::sqrt(double(noise_)), inside_.change() / double(noise_), outside_.change() / double(noise_), blur_,
+          step_.x(), step_.y(), step_.z(), int(std::count(isGood_.begin(), isGood_.end(), 1)), int(isGood_.size()));
+      }
+      inside_.gather(noise_, isGood_);
+      outside_.gather(noise_, isGood_);
+      if (!move())
+      {
+        return std::nullopt;
+      }
+    }
+    const bool isEven = std::max(inside_.change(), outside_.change()) < double(LargestChange * noise_);
+    return isEven ? std::optional(step_) : std::nullopt;
+  }
+
+private:
+  double shift(std::size_t normal) const { return outline_.rates[normal].dot(step_); }
+  bool isUsable(std::size_t normal) const { return isGood_[normal] && inside_.isKnown(normal) && outside_.isKnown(normal); }
+
+  void average()
+  {
+    inside_.average(isGood_);
+    outside_.average(isGood_);
+  }
+
+  /// What a pixel should be, and is.
+  struct Difference
+  {
+    Eigen::Vector3f contrast;    ///< in units of the noise of full slope
+    Eigen::Vector3f difference;  ///< in the same
+    float x;                     ///< of the pixel, inwards from the outline, in blurs
+    float density;
+    float square() const { return difference.squaredNorm(); }
+  };
+
+  Difference differenceOf(const OutlinePixel& pixel) const
+  {
+    const std::size_t i = pixel.index;
+    const double x = (shift(i) - double(pixel.offsetPx)) / blur_;
+    const Bell::Value bell = Bell::at(std::clamp(x, -Bell::Reach, Bell::Reach));
+    const float share = float(bell.integral);
+    const Eigen::Vector3f across = inside_.level(i) - outside_.level(i), expected = outside_.level(i) + share * across;
+    const Eigen::Array3f noise =
+      (outside_.variance(i) + share * (inside_.variance(i) - outside_.variance(i))).array().rsqrt();
+    return { (across.array() * noise).matrix(), ((pixel.light - expected).array() * noise).matrix(), float(x),
+      std::abs(x) < Bell::Reach ? float(bell.density) : 0 };
+  }
+
+  /// Finds the noise, and the normals across which there is something else than the ball and what is around it.
+  bool judgeNormals()
+  {
+    std::vector<float> squares(isGood_.size()), counts(isGood_.size());
+    for (const OutlinePixel& pixel : pixels_)
+    {
+      if (inside_.isKnown(pixel.index) && outside_.isKnown(pixel.index))
+      {
+        squares[pixel.index] += differenceOf(pixel).square();
+        counts[pixel.index] += 3;
+      }
+    }
+    const std::size_t count = squares.size();
+    std::vector<float> shares(count);
+    std::vector<double> known;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const std::size_t before = (i + count - 1) % count, after = (i + 1) % count;
+      const float pixels = counts[before] + counts[i] + counts[after];
+      shares[i] = pixels > 0 ? (squares[before] + squares[i] + squares[after]) / pixels : 1e9F;
+      if (pixels > 0)
+      {
+        known.push_back(double(shares[i]));
+      }
+    }
+    if (known.size() < FewestNormals)
+    {
+      return false;
+    }
+    const auto nth = known.begin() + std::ptrdiff_t(CleanShare * double(known.size()));
+    std::nth_element(known.begin(), nth, known.end());
+    noise_ = float(*nth);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      isGood_[i] = shares[i] < LargestOfNormal * noise_;
+    }
+    return true;
+  }
+
+  /// A step of Gauss and Newton.
+  bool move()
+  {
+    Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    for (const OutlinePixel& pixel : pixels_)
+    {
+      if (!isUsable(pixel.index))
+      {
+        continue;
+      }
+      const Difference difference = differenceOf(pixel);
+      const float square = difference.square() / (LargestOfPixel * noise_);
+      if (difference.density <= 0 || square >= 1)
+      {
+        continue;
+      }
+      const double weight = double((1 - square) * (1 - square));
+      Eigen::Vector4d rate;
+      rate << outline_.rates[pixel.index], -double(difference.x);
+      rate *= double(difference.density) / blur_;
+      information += weight * double(difference.contrast.squaredNorm()) * rate * rate.transpose();
+      right += weight * double(difference.contrast.dot(difference.difference)) * rate;
+    }
+    const Eigen::Vector4d moved = information.ldlt().solve(right);
+    if (!moved.allFinite())
+    {
+      return false;
+    }
+    step_ += moved.head<3>();
+    blur_ = std::clamp(blur_ + moved[3], 0.7 * blur_, 1.4 * blur_);
+    return true;
+  }
+
+  const SphereCone::Outline& outline_;
+  Eigen::Vector3d step_;
+  double blur_;
+  Side inside_, outside_;
+  std::vector<char> isGood_;
+  std::vector<OutlinePixel> pixels_;
+  float noise_ = 0;
+};
+
+}  // namespace
+
+std::optional<Eigen::Vector3d> fitInEvenLight(
+  const LinearLightImage& light, const SphereCone::Outline& outline, const EvenLightStart& start)
+{
+  return EvenLightFitter(light, outline, start).fit();
+}
+
+}  // namespace handeye
