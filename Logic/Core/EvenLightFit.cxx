@@ -9,10 +9,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace handeye
 {
@@ -38,7 +35,11 @@ constexpr std::size_t MostLights = 8;
 /// At least so many of the normals that there is light for have what the model says.
 constexpr double CleanShare = 0.3;
 /// Of the change of the light between the nearer and the further half of a stretch.
-constexpr float LargestChange = 2.5F;
+constexpr float LargestChange = 3;
+/// A larger scatter (of full light's encoded value) is not the noise of a camera alone.
+constexpr float LargestNoise = 4 / 255.0F;
+/// The light is not even where fewer normals than this share of those with a right edge have what the model says.
+constexpr double LeastGood = 0.7;
 
 /// Sums over pixels.
 struct LightSum
@@ -206,6 +207,7 @@ public:
     , outside_(outline.points_Image.size())
     , isGood_(outline.points_Image.size(), 0)
   {
+    support_ = start.support.size();
     for (const std::size_t index : start.support)
     {
       isGood_[index] = 1;
@@ -230,6 +232,11 @@ public:
   std::optional<Eigen::Vector3d> fit()
   {
     average();
+    noise_ = LargestNoise * LargestNoise;
+    if (!isEven())
+    {
+      return std::nullopt;
+    }
     for (int round = 0; round < Rounds; ++round)
     {
       if (!judgeNormals())
@@ -237,11 +244,9 @@ public:
         return std::nullopt;
       }
       average();
-      if (std::getenv("EVEN"))
+      if (!isEven())
       {
-        std::printf("round %d sigma %.3f (grey levels) change in %.2f out %.2f of sigma^2; blur %.3f step %.6f %.6f %.6f good %d of %d\n",
-          round, 255 * std::sqrt(double(noise_)), inside_.change() / double(noise_), outside_.change() / double(noise_), blur_,
-          step_.x(), step_.y(), step_.z(), int(std::count(isGood_.begin(), isGood_.end(), 1)), int(isGood_.size()));
+        return std::nullopt;
       }
       inside_.gather(noise_, isGood_);
       outside_.gather(noise_, isGood_);
@@ -250,13 +255,19 @@ public:
         return std::nullopt;
       }
     }
-    const bool isEven = std::max(inside_.change(), outside_.change()) < double(LargestChange * noise_);
-    return isEven ? std::optional(step_) : std::nullopt;
+    const auto good = std::count(isGood_.begin(), isGood_.end(), char(1));
+    return double(good) >= LeastGood * double(support_) ? std::optional(step_) : std::nullopt;
   }
 
 private:
   double shift(std::size_t normal) const { return outline_.rates[normal].dot(step_); }
   bool isUsable(std::size_t normal) const { return isGood_[normal] && inside_.isKnown(normal) && outside_.isKnown(normal); }
+
+  /// The scatter about the model is that of noise, and the light on either side changes by no more.
+  bool isEven() const
+  {
+    return noise_ <= LargestNoise * LargestNoise && std::max(inside_.change(), outside_.change()) < double(LargestChange * noise_);
+  }
 
   void average()
   {
@@ -367,6 +378,7 @@ private:
   std::vector<char> isGood_;
   std::vector<OutlinePixel> pixels_;
   float noise_ = 0;
+  std::size_t support_ = 0;
 };
 
 }  // namespace

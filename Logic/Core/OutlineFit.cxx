@@ -230,6 +230,10 @@ private:
   /// What is known of the edge points, their scatter above all, stays as it is.
   void refineInEvenLight()
   {
+    if (softnessPx_ > 0)
+    {
+      return;
+    }
     const std::optional<Eigen::Vector3d> step = fitInEvenLight(light_, outline_, { step_, supportIndices_, radiusPx(), fit_.blurPx });
     if (step)
     {
