@@ -92,9 +92,10 @@ public:
   {
     changes_.clear();
     sums_.assign(near_.size(), {});
+    const std::vector<LightSum> nearSums = sumAround(near_, isGood), farSums = sumAround(far_, isGood);
     for (std::size_t i = 0; i < near_.size(); ++i)
     {
-      const LightSum near = around(near_, isGood, i), far = around(far_, isGood, i);
+      const LightSum &near = nearSums[i], &far = farSums[i];
       isKnown_[i] = near.count > 0 && far.count > 0;
       if (isKnown_[i])
       {
@@ -173,19 +174,27 @@ private:
     variances_[i] = handeye::variance(level);
   }
 
-  static LightSum around(const std::vector<LightSum>& sums, const std::vector<char>& isGood, std::size_t i)
+  /// Sums over the good normals within NormalsToEitherSide of each, all around.
+  static std::vector<LightSum> sumAround(const std::vector<LightSum>& sums, const std::vector<char>& isGood)
   {
-    LightSum sum;
-    const int count = int(sums.size());
-    for (int k = -NormalsToEitherSide; k <= NormalsToEitherSide; ++k)
+    const int count = int(sums.size()), reach = std::min(NormalsToEitherSide, (count - 1) / 2);
+    std::vector<LightSum> upTo(std::size_t(count + 2 * reach + 1));
+    for (int k = 0; k < count + 2 * reach; ++k)
     {
-      const auto j = std::size_t((int(i) + k + count) % count);
-      if (isGood[j])
+      const auto from = std::size_t((k - reach + count) % count), to = std::size_t(k);
+      upTo[to + 1] = upTo[to];
+      if (isGood[from])
       {
-        sum += sums[j];
+        upTo[to + 1] += sums[from];
       }
     }
-    return sum;
+    std::vector<LightSum> around(sums.size());
+    for (std::size_t i = 0; i < around.size(); ++i)
+    {
+      const LightSum &before = upTo[i], &after = upTo[i + std::size_t(2 * reach + 1)];
+      around[i] = { after.light - before.light, after.count - before.count };
+    }
+    return around;
   }
 
   std::vector<LightSum> near_, far_;

@@ -56,6 +56,8 @@ constexpr int LongestWaves = 3;
 constexpr double ShadingToWave = 0.65;
 /// However even the light is, the lens model and the gamma curve are not known better.
 constexpr double LeastWavePx = 0.025;
+/// Light whose change on either side may move the edges by more than this share of their blur is not even.
+constexpr double LargestEvenShading = 0.08;
 
 double tukey(double residual, double sigma)
 {
@@ -230,7 +232,12 @@ private:
   /// What is known of the edge points, their scatter above all, stays as it is.
   void refineInEvenLight()
   {
-    if (softnessPx_ > 0)
+    std::vector<double> shading;
+    for (const OutlineEdge& edge : found_.edges)
+    {
+      shading.push_back(edge.shadingPx);
+    }
+    if (softnessPx_ > 0 || median(shading) > LargestEvenShading * fit_.blurPx)
     {
       return;
     }
