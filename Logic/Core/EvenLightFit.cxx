@@ -22,6 +22,9 @@ constexpr double BlursToStretch = 3;
 constexpr double StretchPx = 4;
 /// Deeper inside than this share of the radius there is no outline.
 constexpr double DeepestShare = 0.9;
+/// Pixels so many blurs from the edge say whether it is one; pixels so many blurs from it have a say in where it is.
+constexpr float BlursOfEdge = 2.5F;
+constexpr float BlursThatCount = 3;
 /// Normals to either side whose light is averaged.
 constexpr int NormalsToEitherSide = 8;
 constexpr std::size_t FewestNormals = 12;
@@ -29,8 +32,11 @@ constexpr int Rounds = 4;
 /// Squares of differences in units of their variance: between places that have the same light, of normals that have what the model says,
 /// and of a pixel that counts.
 constexpr float SameLight = 32;
-constexpr float LargestOfNormal = 2.0F;
+constexpr float LargestOfNormal = 2;
+constexpr float LargestOfEdge = 4;
 constexpr float LargestOfPixel = 36;
+/// Normals beside such a one are left out, too.
+constexpr int BesideWrong = 1;
 constexpr std::size_t MostLights = 8;
 /// At least so many of the normals that there is light for have what the model says.
 constexpr double CleanShare = 0.3;
@@ -105,8 +111,7 @@ public:
         const Eigen::Vector3f change = near.mean() - far.mean();
         if (isGood[i])
         {
-          changes_.push_back(
-            double(change.cwiseAbs2().cwiseQuotient(variances_[i]).sum() / 3 / (1 / near.count + 1 / far.count)));
+          changes_.push_back(double(change.cwiseAbs2().cwiseQuotient(variances_[i]).sum() / 3 / (1 / near.count + 1 / far.count)));
         }
       }
     }
@@ -131,8 +136,7 @@ public:
       {
         continue;
       }
-      const auto isSame = [&](const Common& common)
-      {
+      const auto isSame = [&](const Common& common) {
         return (common.level - levels_[i]).cwiseAbs2().cwiseQuotient(variances_[i]).sum() * sums_[i].count <
           SameLight * noiseVariance;
       };
@@ -204,6 +208,64 @@ private:
   std::vector<double> changes_;
 };
 
+/// Mean squares of pixels' differences, normal by normal; each with the two beside it.
+class Scatter
+{
+public:
+  explicit Scatter(std::size_t count)
+    : squares_(count)
+    , counts_(count)
+  {
+  }
+
+  void add(std::size_t normal, float square)
+  {
+    squares_[normal] += square;
+    counts_[normal] += 3;
+  }
+
+  /// Of the normals that have any.
+  std::vector<double> shares() const
+  {
+    std::vector<double> result;
+    for (std::size_t i = 0; i < counts_.size(); ++i)
+    {
+      if (counts_[i] > 0)
+      {
+        result.push_back(double(share(i)));
+      }
+    }
+    return result;
+  }
+
+  /// Those with a smaller one, and with no larger one within some normals to either side.
+  std::vector<char> areBelow(float limit, int beside) const
+  {
+    const int count = int(counts_.size());
+    std::vector<char> result(counts_.size(), 1);
+    for (int i = 0; i < count; ++i)
+    {
+      if (counts_[std::size_t(i)] == 0 || share(std::size_t(i)) >= limit)
+      {
+        for (int k = -beside; k <= beside; ++k)
+        {
+          result[std::size_t((i + k + count) % count)] = 0;
+        }
+      }
+    }
+    return result;
+  }
+
+private:
+  float share(std::size_t i) const
+  {
+    const std::size_t before = (i + counts_.size() - 1) % counts_.size(), after = (i + 1) % counts_.size();
+    return (squares_[before] + squares_[i] + squares_[after]) / (counts_[before] + counts_[i] + counts_[after]);
+  }
+
+  std::vector<float> squares_, counts_;
+};
+
 /// The fit to the pixels, round by round.
 class EvenLightFitter
 {
@@ -214,12 +276,12 @@ public:
     , blur_(std::max(start.blurPx, EdgeProfiles::SharpestPx))
     , inside_(outline.points_Image.size())
     , outside_(outline.points_Image.size())
-    , isGood_(outline.points_Image.size(), 0)
+    , isEven_(outline.points_Image.size(), 0)
   {
     support_ = start.support.size();
     for (const std::size_t index : start.support)
     {
-      isGood_[index] = 1;
+      isEven_[index] = 1;
     }
     const double near = BlursToStretch * blur_, far = near + StretchPx;
     const double deepest = std::min(far, DeepestShare * start.radiusPx);
@@ -257,20 +319,20 @@ public:
       {
         return std::nullopt;
       }
-      inside_.gather(noise_, isGood_);
-      outside_.gather(noise_, isGood_);
+      inside_.gather(noise_, isEven_);
+      outside_.gather(noise_, isEven_);
       if (!move())
       {
         return std::nullopt;
       }
     }
-    const auto good = std::count(isGood_.begin(), isGood_.end(), char(1));
+    const auto good = std::count(isEdge_.begin(), isEdge_.end(), char(1));
     return double(good) >= LeastGood * double(support_) ? std::optional(step_) : std::nullopt;
   }
 
 private:
   double shift(std::size_t normal) const { return outline_.rates[normal].dot(step_); }
-  bool isUsable(std::size_t normal) const { return isGood_[normal] && inside_.isKnown(normal) && outside_.isKnown(normal); }
+  bool isKnown(std::size_t normal) const { return inside_.isKnown(normal) && outside_.isKnown(normal); }
 
   /// The scatter about the model is that of noise, and the light on either side changes by no more.
   bool isEven() const
@@ -280,8 +342,8 @@ private:
 
   void average()
   {
-    inside_.average(isGood_);
-    outside_.average(isGood_);
+    inside_.average(isEven_);
+    outside_.average(isEven_);
   }
 
   /// What a pixel should be, and is.
@@ -301,37 +363,29 @@ private:
     const Bell::Value bell = Bell::at(std::clamp(x, -Bell::Reach, Bell::Reach));
     const float share = float(bell.integral);
     const Eigen::Vector3f across = inside_.level(i) - outside_.level(i), expected = outside_.level(i) + share * across;
-    const Eigen::Array3f noise =
-      (outside_.variance(i) + share * (inside_.variance(i) - outside_.variance(i))).array().rsqrt();
+    const Eigen::Array3f noise = (outside_.variance(i) + share * (inside_.variance(i) - outside_.variance(i))).array().rsqrt();
     return { (across.array() * noise).matrix(), ((pixel.light - expected).array() * noise).matrix(), float(x),
       std::abs(x) < Bell::Reach ? float(bell.density) : 0 };
   }
 
-  /// Finds the noise, and the normals across which there is something else than the ball and what is around it.
+  /// Finds the noise, and the normals across which there is something else than the ball and what is around it: near the edge, or
+  /// anywhere.
   bool judgeNormals()
   {
-    std::vector<float> squares(isGood_.size()), counts(isGood_.size());
+    Scatter everywhere(isEven_.size()), nearEdge(isEven_.size());
     for (const OutlinePixel& pixel : pixels_)
     {
-      if (inside_.isKnown(pixel.index) && outside_.isKnown(pixel.index))
+      if (isKnown(pixel.index))
       {
-        squares[pixel.index] += differenceOf(pixel).square();
-        counts[pixel.index] += 3;
+        const Difference difference = differenceOf(pixel);
+        everywhere.add(pixel.index, difference.square());
+        if (std::abs(difference.x) < BlursOfEdge)
+        {
+          nearEdge.add(pixel.index, difference.square());
+        }
       }
     }
-    const std::size_t count = squares.size();
-    std::vector<float> shares(count);
-    std::vector<double> known;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const std::size_t before = (i + count - 1) % count, after = (i + 1) % count;
-      const float pixels = counts[before] + counts[i] + counts[after];
-      shares[i] = pixels > 0 ? (squares[before] + squares[i] + squares[after]) / pixels : 1e9F;
-      if (pixels > 0)
-      {
-        known.push_back(double(shares[i]));
-      }
-    }
+    std::vector<double> known = everywhere.shares();
     if (known.size() < FewestNormals)
     {
       return false;
@@ -339,10 +393,8 @@ private:
     const auto nth = known.begin() + std::ptrdiff_t(CleanShare * double(known.size()));
     std::nth_element(known.begin(), nth, known.end());
     noise_ = float(*nth);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      isGood_[i] = shares[i] < LargestOfNormal * noise_;
-    }
+    isEven_ = everywhere.areBelow(LargestOfNormal * noise_, BesideWrong);
+    isEdge_ = nearEdge.areBelow(LargestOfEdge * noise_, 0);
     return true;
   }
 
@@ -353,13 +405,13 @@ private:
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
     for (const OutlinePixel& pixel : pixels_)
     {
-      if (!isUsable(pixel.index))
+      if (!isEdge_[pixel.index] || !isKnown(pixel.index))
       {
         continue;
       }
       const Difference difference = differenceOf(pixel);
       const float square = difference.square() / (LargestOfPixel * noise_);
-      if (difference.density <= 0 || square >= 1)
+      if (std::abs(difference.x) >= BlursThatCount || square >= 1)
       {
         continue;
       }
@@ -384,7 +436,8 @@ private:
   Eigen::Vector3d step_;
   double blur_;
   Side inside_, outside_;
-  std::vector<char> isGood_;
+  std::vector<char> isEven_;  ///< the light across the normal is the model's
+  std::vector<char> isEdge_;  ///< near the edge it is
   std::vector<OutlinePixel> pixels_;
   float noise_ = 0;
   std::size_t support_ = 0;

@@ -241,7 +241,8 @@ private:
     {
       return;
     }
-    const std::optional<Eigen::Vector3d> step = fitInEvenLight(light_, outline_, { step_, supportIndices_, radiusPx(), fit_.blurPx });
+    const std::optional<Eigen::Vector3d> step =
+      fitInEvenLight(light_, outline_, { step_, supportIndices_, radiusPx(), fit_.blurPx });
     if (step)
     {
       fit_.cone = lookedAround_.moved(*step);
@@ -310,7 +311,7 @@ private:
   OutlineFit fit_;
   std::vector<std::size_t> supportIndices_;
   SphereCone lookedAround_;
-  SphereCone::Outline outline_;  ///< of that
+  SphereCone::Outline outline_;                     ///< of that
   Eigen::Vector3d step_ = Eigen::Vector3d::Zero();  ///< from that to the fit
   OutlineEdges found_;
   int searched_ = 0;
