@@ -101,7 +101,8 @@ public:
   std::size_t count() const { return isUsable_.size(); }
   bool isUsable(std::size_t i) const { return isUsable_[i]; }
 
-  /// Where the light changes most; changes along the ball's own colour count less, and so do changes further away: a highlight has a rim,
+  /// Where the light changes most; changes along the ball's own colour count less, and so do changes further away: a highlight
+  /// has a rim,
   /// too.
   double steepest(std::size_t i) const;
 
@@ -114,14 +115,17 @@ public:
   /// The blurred step that fits the profile best, every sample by its noise: encoded light is noisier where it is brighter.
   bool byMatching(std::size_t i, const EdgeSides& sides, double blurPx, double& place) const;
 
-  /// Of the level along a direction, up to a factor: a gamma near 2 makes the noise of encoded light grow with the root of the light.
+  /// Of the level along a direction, up to a factor: a gamma near 2 makes the noise of encoded light grow with the root of the
+  /// light.
   static double noiseVariance(const Eigen::Vector3f& light, const Eigen::Vector3f& direction);
 
-  /// How far apart (px) the places nearest to the outline are where the light has fallen to three quarters and to a quarter; false where
+  /// How far apart (px) the places nearest to the outline are where the light has fallen to three quarters and to a quarter;
+  /// false where
   /// there are none.
   bool width(std::size_t i, double& widthPx) const;
 
-  /// The place that is found moves by this much per level that a side is wrong by; and a side is wrong by what it changes on the way to
+  /// The place that is found moves by this much per level that a side is wrong by; and a side is wrong by what it changes on
+  /// the way to
   /// the edge, and by what was clipped.
   double shadingPx(const EdgeSides& sides, double blurPx) const;
 

@@ -23,7 +23,8 @@ struct EvenLightStart
   double blurPx = 0;                               ///< standard deviation of the edges' blur
 };
 
-/// Fits an outline to the pixels around it, where the light is even: the ball has one brightness along the outline's inside, and so has
+/// Fits an outline to the pixels around it, where the light is even: the ball has one brightness along the outline's inside,
+/// and so has
 /// what lies outside, apart from places where it changes to another.
 ///
 /// A pixel at the distance d from the outline has the light outside + (inside - outside) Phi(-d / blur) in each channel; the

@@ -99,7 +99,8 @@ std::vector<EdgeSides> smooth(const std::vector<EdgeSides>& own, const std::vect
   return smoothed;
 }
 
-/// The expected outline is good to a pixel and the blur is known: the light is compared on either side of the outline itself, so that
+/// The expected outline is good to a pixel and the blur is known: the light is compared on either side of the outline itself,
+/// so that
 /// a shadow on the ball does not draw the edge inwards.
 OutlineEdges findFinely(const EdgeProfiles& profiles, const OutlineSearch& search, double referencePx, std::vector<double>& blurs)
 {

@@ -50,7 +50,8 @@ constexpr int Rounds = 10;
 constexpr double TukeyConstant = 4.685;
 /// Edge points are never better than this (px): below it the weights would chase rounding.
 constexpr double SmallestSigmaPx = 0.01;
-/// Shading moves the edges in waves along the outline: none (the whole outline), one (all of it to one side), two, three; each with this
+/// Shading moves the edges in waves along the outline: none (the whole outline), one (all of it to one side), two, three; each
+/// with this
 /// share of what the light's change on either side may move a single edge by. Measured on rendered captures.
 constexpr int LongestWaves = 3;
 constexpr double ShadingToWave = 0.65;
