@@ -5,6 +5,7 @@
 #include "BallCandidates.h"
 #include "BallColorLevels.h"
 #include "BallEvidence.h"
+#include "BallFindings.h"
 #include "HoughBall.h"
 #include "LinearLightImage.h"
 #include "NumberWords.h"
@@ -25,10 +26,6 @@ namespace
 using Status = BallDetection::Status;
 
 constexpr double HoughSigmaPx = 2;
-/// A candidate this close to a ball that was found, as a share of its size, is that ball.
-constexpr double AlreadyKnown = 0.1;
-/// A region that goes no further than this beyond a ball that was found belongs to it (px).
-constexpr int BeyondKnownPx = 4;
 /// A prediction is believed to this many standard deviations.
 constexpr double GateSigmas = 4;
 /// The distance by the apparent size is good to this share: a ball that darkens towards its limb looks smaller than it is.
@@ -50,94 +47,6 @@ constexpr double VisibleOfSmeared = 0.8;
 /// From this on half of it is added to the standard deviation.
 constexpr double NoticeableTwoSidedWidthPx = 1;
 
-/// A ball that was found.
-struct Found
-{
-  OutlineFit fit;
-  BallEvidence evidence;
-
-  double score() const { return evidence.score; }
-
-  /// Two outlines of the same thing: their centres are closer than the larger radius.
-  bool isSameAs(const Found& other) const
-  {
-    const double apart = fit.cone.axis_Camera.cross(other.fit.cone.axis_Camera).norm();
-    return apart < std::sin(std::max(fit.cone.halfAngle, other.fit.cone.halfAngle));
-  }
-
-  bool isSameAs(const SphereCone& candidate) const
-  {
-    const double apart = fit.cone.axis_Camera.cross(candidate.axis_Camera).norm();
-    return apart + std::abs(fit.cone.halfAngle - candidate.halfAngle) < AlreadyKnown * fit.cone.halfAngle;
-  }
-
-  bool contains(const cv::Rect& region) const
-  {
-    const auto isBeyond = [&](double x, double y, double nx, double ny)
-    {
-      // The region's side against the furthest point of the outline in its direction.
-      double furthest = -1e9;
-      for (const Eigen::Vector2d& point : fit.support_Image)
-      {
-        furthest = std::max(furthest, nx * point.x() + ny * point.y());
-      }
-      return nx * x + ny * y > furthest + BeyondKnownPx;
-    };
-    const cv::Point last = region.br() - cv::Point(1, 1);
-    return !isBeyond(region.x, region.y, -1, 0) && !isBeyond(region.x, region.y, 0, -1) && !isBeyond(last.x, last.y, 1, 0) &&
-      !isBeyond(last.x, last.y, 0, 1);
-  }
-};
-
-/// All that is found in one image, each ball once.
-class Findings
-{
-public:
-  std::vector<Found> balls;
-  std::vector<Found> smeared;  ///< what would be a ball, had it not moved
-  double partlySeen = 0;       ///< visible share of something that is a ball but for that
-
-  template<typename Other> bool has(const Other& other) const
-  {
-    return std::any_of(balls.begin(), balls.end(), [&](const Found& ball) { return ball.isSameAs(other); });
-  }
-
-  bool hasAround(const cv::Rect& region) const
-  {
-    return std::any_of(balls.begin(), balls.end(), [&](const Found& ball) { return ball.contains(region); });
-  }
-
-  void add(const Found& found)
-  {
-    if (!found.evidence.isBall)
-    {
-      partlySeen = found.evidence.isPartOfBall ? std::max(partlySeen, found.fit.visibleShare) : partlySeen;
-      return;
-    }
-    const auto same = std::find_if(balls.begin(), balls.end(), [&](const Found& other) { return found.isSameAs(other); });
-    if (same == balls.end())
-    {
-      balls.push_back(found);
-    }
-    else if (found.score() > same->score())
-    {
-      *same = found;
-    }
-  }
-
-  /// Puts the best first, and takes out what is only a piece of something smeared.
-  void sort()
-  {
-    const auto isPiece = [&](const Found& ball)
-    {
-      return std::any_of(smeared.begin(), smeared.end(),
-        [&](const Found& other) { return other.isSameAs(ball) && other.evidence.radiusPx > ball.evidence.radiusPx; });
-    };
-    balls.erase(std::remove_if(balls.begin(), balls.end(), isPiece), balls.end());
-    std::sort(balls.begin(), balls.end(), [](const Found& a, const Found& b) { return a.score() > b.score(); });
-  }
-};
-
 /// One image being searched.
 class Search
 {
@@ -154,7 +63,7 @@ public:
   }
 
   /// Looks at every level of the colour: the ball may be one with what is around it at one level, and alone at another.
-  Findings run()
+  BallFindings run()
   {
     const auto isKnown = [&](const cv::Rect& region) { return findings_.hasAround(region); };
     const double focalPx = (camera_.fx() + camera_.fy()) / 2;
@@ -191,7 +100,7 @@ private:
     {
       const auto judge = [&](double largestSigmaPx)
       { return judgeOutline(*fit, image_, levels_, level, camera_, options_, largestSigmaPx); };
-      const Found found{ *fit, judge(LargestSigmaPx) };
+      const FoundBall found{ *fit, judge(LargestSigmaPx) };
       const bool isSmeared = !found.evidence.isBall && fit->twoSidedWidthPx > LargestTwoSidedWidthPx &&
         fit->visibleShare >= VisibleOfSmeared && judge(LargestSmearedSigmaPx).isBall;
       isSmeared ? findings_.smeared.push_back(found) : findings_.add(found);
@@ -204,7 +113,7 @@ private:
   const BallDetectionOptions& options_;
   BallColorLevels levels_;
   LinearLightImage light_;
-  Findings findings_;
+  BallFindings findings_;
 };
 
 /// Fills in all that follows from the ray to the ball's centre.
@@ -216,7 +125,7 @@ void describe(const Eigen::Vector3d& ray, const Eigen::Matrix3d& rayCovariance, 
   result.covariance_Image = jacobian * rayCovariance * jacobian.transpose();
 }
 
-BallDetection describe(const Found& found, const CameraModel& camera, double ballRadiusMm)
+BallDetection describe(const FoundBall& found, const CameraModel& camera, double ballRadiusMm)
 {
   BallDetection result;
   describe(found.fit.cone.axis_Camera, found.fit.axisCovariance, camera, result);
@@ -240,7 +149,7 @@ BallDetection refuse(Status status, const std::string& message)
   return result;
 }
 
-bool isInRange(const Found& found, double ballRadiusMm, const BallDetectionOptions& options)
+bool isInRange(const FoundBall& found, double ballRadiusMm, const BallDetectionOptions& options)
 {
   const double distanceMm = found.fit.cone.distance(ballRadiusMm);
   return distanceMm >= (1 - DistanceTolerance) * options.nearestMm && distanceMm <= (1 + DistanceTolerance) * options.furthestMm;
@@ -260,12 +169,12 @@ public:
   /// Where the ball cannot be seen nothing can be said.
   bool isUsable() const { return predicted_.isUsable(); }
 
-  double apartPx(const Found& found, const CameraModel& camera) const
+  double apartPx(const FoundBall& found, const CameraModel& camera) const
   {
     return (camera.project(found.fit.cone.axis_Camera).point_Image - predicted_.point_Image).norm();
   }
 
-  bool admits(const Found& found, const CameraModel& camera, double ballRadiusMm) const
+  bool admits(const FoundBall& found, const CameraModel& camera, double ballRadiusMm) const
   {
     const double ratio = found.fit.cone.distance(ballRadiusMm) / distanceMm_;
     return apartPx(found, camera) <= reachPx_ && std::abs(std::log(ratio)) <= std::log(1 + DistanceTolerance);
@@ -329,7 +238,7 @@ BallDetection BallDetector::detectExact(
 {
   const cv::Rect searched = window & cv::Rect({ 0, 0 }, image.size());
   const std::shared_ptr<const RayGrid> grid = grid_ ? grid_ : std::make_shared<RayGrid>(camera_, image.size());
-  auto [balls, smeared, partlySeen] = searched.empty() ? Findings() : Search(image, searched, camera_, *grid, options_).run();
+  auto [balls, smeared, partlySeen] = searched.empty() ? BallFindings() : Search(image, searched, camera_, *grid, options_).run();
   const char* const moved = "the ball is seen, but its outline is smeared: hold the ball and the camera still";
   if (balls.empty() && !smeared.empty())
   {
@@ -342,8 +251,8 @@ BallDetection BallDetector::detectExact(
     none.visibleShare = partlySeen;
     return none;
   }
-  const Found best = balls.front();
-  const auto outOfRange = [&](const Found& found) { return !isInRange(found, ballRadiusMm_, options_); };
+  const FoundBall best = balls.front();
+  const auto outOfRange = [&](const FoundBall& found) { return !isInRange(found, ballRadiusMm_, options_); };
   balls.erase(std::remove_if(balls.begin(), balls.end(), outOfRange), balls.end());
   if (balls.empty())
   {
@@ -356,7 +265,7 @@ BallDetection BallDetector::detectExact(
   {
     const Gate gate(*prediction, camera_);
     const double apartPx = gate.isUsable() ? gate.apartPx(balls.front(), camera_) : 0;
-    const auto elsewhere = [&](const Found& found) { return !gate.isUsable() || !gate.admits(found, camera_, ballRadiusMm_); };
+    const auto elsewhere = [&](const FoundBall& found) { return !gate.isUsable() || !gate.admits(found, camera_, ballRadiusMm_); };
     balls.erase(std::remove_if(balls.begin(), balls.end(), elsewhere), balls.end());
     if (balls.empty())
     {
@@ -366,9 +275,9 @@ BallDetection BallDetector::detectExact(
                        : std::string("by the tracker the ball is out of view")));
     }
   }
-  const auto larger = [](const Found& a, const Found& b) { return a.evidence.radiusPx < b.evidence.radiusPx; };
+  const auto larger = [](const FoundBall& a, const FoundBall& b) { return a.evidence.radiusPx < b.evidence.radiusPx; };
   const double largestPx = std::max_element(balls.begin(), balls.end(), larger)->evidence.radiusPx;
-  const auto isFarAway = [&](const Found& found) { return MuchSmaller * found.evidence.radiusPx < largestPx; };
+  const auto isFarAway = [&](const FoundBall& found) { return MuchSmaller * found.evidence.radiusPx < largestPx; };
   balls.erase(std::remove_if(balls.begin(), balls.end(), isFarAway), balls.end());
   if (balls.size() > 1 && balls[0].score() < options_.distinctionFactor * balls[1].score())
   {

@@ -62,4 +62,18 @@ Eigen::Vector3f LinearLightImage::at(double x, double y) const
   return image_.depth() == CV_16U ? interpolate<ushort>(x, y) : interpolate<uchar>(x, y);
 }
 
+Eigen::Vector3f LinearLightImage::pixel(int column, int row) const
+{
+  const auto read = [&](const auto* values)
+  { return Eigen::Vector3f(table_[values[0]], table_[values[1]], table_[values[2]]); };
+  const int first = column * image_.channels();
+  return image_.depth() == CV_16U ? read(image_.ptr<ushort>(row) + first) : read(image_.ptr<uchar>(row) + first);
+}
+
+float LinearLightImage::slope(float light)
+{
+  constexpr float EndOfStraightPart = 0.0031308F;
+  return light > EndOfStraightPart ? 2.4F / 1.055F * std::pow(light, 1.4F / 2.4F) : 1 / 12.92F;
+}
+
 }  // namespace handeye

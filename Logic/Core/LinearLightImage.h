@@ -25,6 +25,14 @@ public:
     return point_Image.x() >= 0 && point_Image.y() >= 0 && point_Image.x() < image_.cols - 1 && point_Image.y() < image_.rows - 1;
   }
 
+  /// The light of a pixel, which must be one of the image's.
+  Eigen::Vector3f pixel(int column, int row) const;
+  int width() const { return image_.cols; }
+  int height() const { return image_.rows; }
+
+  /// How fast the light grows with the encoded value (0 to 1) that stands for it.
+  static float slope(float light);
+
 private:
   template<typename Pixel> Eigen::Vector3f interpolate(double x, double y) const;
 

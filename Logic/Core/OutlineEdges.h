@@ -35,7 +35,8 @@ struct OutlineSearch
 
 /// Looks for the ball's edge along the normals of an expected outline.
 ///
-/// The light along a normal is projected onto the difference between the light inside and outside, so that any pair of colours makes a
+/// The light along a normal is projected onto the difference between the light inside and outside, so that any pair of colours
+/// makes a
 /// profile from 1 to 0. As long as the blur is not known the edge is where the area under the profile says; once it is known, the
 /// blurred step that fits the profile best, which is as precise as the noise of the pixels allows.
 OutlineEdges findOutlineEdges(const LinearLightImage& image, const SphereCone::Outline& expected, const OutlineSearch& search);
@@ -44,7 +45,8 @@ OutlineEdges findOutlineEdges(const LinearLightImage& image, const SphereCone::O
 struct EdgeWidths
 {
   double narrowPx = 0;  ///< a quarter of the edges are narrower
-  /// How much wider they are on two opposite sides than on average: a ball that moved while the picture was taken is blurred so. 0 where
+  /// How much wider they are on two opposite sides than on average: a ball that moved while the picture was taken is blurred
+  /// so. 0 where
   /// too little is seen, or where one side alone is wider, which shading does.
   double twoSidedPx = 0;
 };

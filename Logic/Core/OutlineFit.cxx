@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutlineFit.h"
 
+#include "EvenLightFit.h"
 #include "OutlineEdges.h"
 #include "Statistics.h"
 
@@ -49,12 +50,15 @@ constexpr int Rounds = 10;
 constexpr double TukeyConstant = 4.685;
 /// Edge points are never better than this (px): below it the weights would chase rounding.
 constexpr double SmallestSigmaPx = 0.01;
-/// Shading moves the edges in waves along the outline: none (the whole outline), one (all of it to one side), two, three; each with this
+/// Shading moves the edges in waves along the outline: none (the whole outline), one (all of it to one side), two, three; each
+/// with this
 /// share of what the light's change on either side may move a single edge by. Measured on rendered captures.
 constexpr int LongestWaves = 3;
 constexpr double ShadingToWave = 0.65;
 /// However even the light is, the lens model and the gamma curve are not known better.
 constexpr double LeastWavePx = 0.025;
+/// Light whose change on either side may move the edges by more than this share of their blur is not even.
+constexpr double LargestEvenShading = 0.08;
 
 double tukey(double residual, double sigma)
 {
@@ -200,6 +204,7 @@ public:
         return std::nullopt;
       }
     }
+    refineInEvenLight();
     fit_.twoSidedWidthPx = measureWidths().twoSidedPx;
     return fit_;
   }
@@ -224,6 +229,26 @@ private:
   }
 
   EdgeWidths measureWidths() const { return measureEdgeWidths(light_, fit_.cone.outline(camera_, FewestNormals), radiusPx()); }
+
+  /// What is known of the edge points, their scatter above all, stays as it is.
+  void refineInEvenLight()
+  {
+    std::vector<double> shading;
+    for (const OutlineEdge& edge : found_.edges)
+    {
+      shading.push_back(edge.shadingPx);
+    }
+    if (softnessPx_ > 0 || median(shading) > LargestEvenShading * fit_.blurPx)
+    {
+      return;
+    }
+    const std::optional<Eigen::Vector3d> step =
+      fitInEvenLight(light_, outline_, { step_, supportIndices_, radiusPx(), fit_.blurPx });
+    if (step)
+    {
+      fit_.cone = lookedAround_.moved(*step);
+    }
+  }
 
   bool fitRays()
   {
@@ -261,9 +286,12 @@ private:
     {
       movedPx_ = std::max(movedPx_, std::abs(rate.dot(step.step())));
     }
-    fit_.cone = fit_.cone.moved(step.step());
+    lookedAround_ = fit_.cone;
+    step_ = step.step();
+    fit_.cone = lookedAround_.moved(step_);
     fit_.support_Image.clear();
     fit_.supportTurns.clear();
+    supportIndices_.clear();
     const double limit = std::max(SupportPx, SupportSigmas * fit_.sigmaPx);
     for (std::size_t i = 0; i < found_.edges.size(); ++i)
     {
@@ -272,6 +300,7 @@ private:
         const OutlineEdge& edge = found_.edges[i];
         fit_.support_Image.push_back(outline_.points_Image[edge.index] + edge.offsetPx * outline_.normals_Image[edge.index]);
         fit_.supportTurns.push_back(outline_.turns[edge.index]);
+        supportIndices_.push_back(edge.index);
       }
     }
     fit_.visibleShare = double(fit_.support_Image.size()) / searched_;
@@ -281,7 +310,10 @@ private:
   const LinearLightImage& light_;
   const CameraModel& camera_;
   OutlineFit fit_;
-  SphereCone::Outline outline_;
+  std::vector<std::size_t> supportIndices_;
+  SphereCone lookedAround_;
+  SphereCone::Outline outline_;                     ///< of that
+  Eigen::Vector3d step_ = Eigen::Vector3d::Zero();  ///< from that to the fit
   OutlineEdges found_;
   int searched_ = 0;
   double reachPx_ = 0;

@@ -29,7 +29,8 @@ struct OutlineFit
   Eigen::Matrix3d axisCovariance = Eigen::Matrix3d::Zero();
 };
 
-/// Fits the outline roughly (a tenth of a pixel): the cone through the rays of the edges near a candidate, then a step in px along the
+/// Fits the outline roughly (a tenth of a pixel): the cone through the rays of the edges near a candidate, then a step in px
+/// along the
 /// outline's normals. Most candidates end here.
 /// @param candidate good to a few px
 /// @return nothing where there is no outline of a ball
