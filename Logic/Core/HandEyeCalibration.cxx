@@ -348,7 +348,7 @@ HandEyeCalibrationResult calibrateHandEye(const Samples& givenSamples, const Eye
     used = kept;
   }
   const bool weighted = options.method == PointLineOptions::Method::Global;
-  const PointLineResult solution = solveHandEye(samples, used, eyes, options, options.method, weighted ? WeightRounds : 0);
+  const PointLineResult solution = solveHandEye(samples, used, eyes, options, options.method, weighted ? WeightRounds : 0, true);
   result.status = translate(solution.status);
   result.message = solution.message;
   result.iterations = solution.iterations;

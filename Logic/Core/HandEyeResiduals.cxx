@@ -118,11 +118,12 @@ std::vector<double> normalizedResiduals(const HandEyeSamples& samples, const Eye
 }
 
 PointLineResult solveHandEye(const HandEyeSamples& samples, const std::vector<int>& subset, const Eyes& eyes,
-  const HandEyeCalibrationOptions& options, PointLineOptions::Method method, int weightRounds)
+  const HandEyeCalibrationOptions& options, PointLineOptions::Method method, int weightRounds, bool findRivals)
 {
   PointLineOptions pointLine;
   pointLine.method = method;
   pointLine.linesAreRays = true;
+  pointLine.findRivals = findRivals;
   const bool isLikelihood = method == PointLineOptions::Method::MaximumLikelihood;
   // The noise comes with its size, unless that is to be estimated.
   pointLine.sigmaMm = pointLine.sigmaRad = options.estimateNoise ? 0 : 1;

@@ -52,7 +52,8 @@ double focalLength(const CameraModel& camera);
 
 /// The solution of some of the samples; weights follow the distances that the solution itself gives.
 /// @param weightRounds how often the weights are renewed; 0 for equal weights
+/// @param findRivals see PointLineOptions
 PointLineResult solveHandEye(const HandEyeSamples& samples, const std::vector<int>& subset, const Eyes& eyes,
-  const HandEyeCalibrationOptions& options, PointLineOptions::Method method, int weightRounds);
+  const HandEyeCalibrationOptions& options, PointLineOptions::Method method, int weightRounds, bool findRivals = false);
 
 }  // namespace handeye

@@ -21,8 +21,8 @@ constexpr double RejectionFactor = 4.5;
 /// Leaving pairs out must pay: the scatter falls by this factor at least ...
 constexpr double WorthIt = 2.5;
 /// ... or each that is left out is far off on its own account. Few pairs do not tell their own scatter well, and look closer together
-/// than they are after the furthest are gone: the limit is larger for them by this share over the freedoms that they leave.
-constexpr double FewFreedoms = 10;
+/// than they are after the furthest are gone: both limits are larger for them by this share over the freedoms that they leave.
+constexpr double FewFreedoms = 15;
 constexpr int Rounds = 10;
 
 std::vector<double> distances(const PointLinePairs& pairs, const Eigen::Isometry3d& pointsToLines)
@@ -104,6 +104,7 @@ std::vector<int> findAgreeingPairs(const PointLinePairs& pairs, const PointLineO
   PointLineOptions options = given;
   options.method = PointLineOptions::Method::Global;
   options.rejectOutliers = false;
+  options.findRivals = false;
   if (pairs.size() < FewestPairs)
   {
     return all;
@@ -139,7 +140,7 @@ std::vector<int> findAgreeingPairs(const PointLinePairs& pairs, const PointLineO
   }();
   const Fit withAll = fit(pairs, all, judging);
   const double freedoms = std::max(1.0, 2.0 * double(kept.size()) - 6);
-  const double farOff = (1 + FewFreedoms / freedoms) * RejectionFactor * fitted.sigma + rounding;
+  const double few = 1 + FewFreedoms / freedoms, farOff = few * RejectionFactor * fitted.sigma + rounding;
   double nearestLeftOut = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < pairs.size(); ++i)
   {
@@ -148,7 +149,7 @@ std::vector<int> findAgreeingPairs(const PointLinePairs& pairs, const PointLineO
       nearestLeftOut = std::min(nearestLeftOut, fitted.lengths[i]);
     }
   }
-  const bool pays = !withAll.usable || withAll.sigma > WorthIt * fitted.sigma + rounding || nearestLeftOut > farOff;
+  const bool pays = !withAll.usable || withAll.sigma > few * WorthIt * fitted.sigma + rounding || nearestLeftOut > farOff;
   return pays && 2 * kept.size() > pairs.size() ? kept : all;
 }
 

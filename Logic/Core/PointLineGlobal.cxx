@@ -20,6 +20,8 @@ constexpr std::size_t EnoughPairs = 4;
 /// With this many pairs, noise does not make a solution behind the camera fit better by this ratio of the costs.
 constexpr std::size_t EnoughToTell = 8;
 constexpr double MirroredRatio = 100;
+/// Noise moves the difference of two minima's costs by this many variances, three standard deviations.
+constexpr double RivalChi2 = 9;
 /// Two minima closer than this (rad) are one.
 constexpr double SameRotation = 1e-4;
 
@@ -103,7 +105,9 @@ void choose(const PointLinePairs& pairs, const PointLineQuadraticForm& form, con
       return;
     }
   }
-  const double indistinguishable = 1.0001 * chosen->cost + roundingCost(pairs);
+  const double freedoms = 2.0 * double(pairs.size()) - 6;
+  const double byNoise = options.findRivals && freedoms > 0 ? RivalChi2 * chosen->cost / freedoms : 0;
+  const double indistinguishable = 1.0001 * chosen->cost + byNoise + roundingCost(pairs);
   const auto firstWorse =
     std::find_if(chosen, minima.end(), [&](const Minimum& minimum) { return minimum.cost > indistinguishable; });
   // Points of a plane seen along lines through one centre have a twin behind it: directions have a sense, so the one in front is
@@ -142,7 +146,7 @@ void solveGlobal(
   }
   const Eigen::Matrix3d first = form.descend(form.linearStart(), result.iterations);
   // Fewer points than this leave the quadratic form flat somewhere, where there is nothing to prove.
-  if (pairs.size() > EnoughPairs && form.isCertainlyGlobal(first))
+  if (!options.findRivals && pairs.size() > EnoughPairs && form.isCertainlyGlobal(first))
   {
     result.pointsToLines = form.pointsToLines(first);
     const std::size_t inFront = measureResiduals(pairs, form, result);

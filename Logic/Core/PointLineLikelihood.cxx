@@ -24,6 +24,10 @@ constexpr int MaximumRounds = 50;
 constexpr int NoiseRounds = 6;
 /// The last step turns the points by less than this (rad) about their centroid.
 constexpr double Still = 1e-12;
+/// A point may be said to be exact; its variance (mm^2) is then taken to be this.
+constexpr double SmallestVariance = 1e-12;
+/// The last turn (rad) of a solution that was reached.
+constexpr double NearlyStill = 1e-7;
 constexpr int RatioSteps = 20;
 
 /// One pair at the present solution, in the plane across its line.
@@ -117,7 +121,7 @@ public:
     double meanSquare = 0;
     for (const Term& term : terms_)
     {
-      meanSquare += term.byDirection.trace() / term.byPoint.trace() / double(terms_.size());
+      meanSquare += term.byDirection.trace() / std::max(term.byPoint.trace(), SmallestVariance) / double(terms_.size());
     }
     Noise best = last;
     double lowest = std::numeric_limits<double>::infinity();
@@ -177,6 +181,7 @@ void solveMaximumLikelihood(
   const double unlimited = 1e300;  // before the noise is known, no residual is too large
   Noise sigma{ isGiven ? options.sigmaMm * options.sigmaMm : unlimited, options.sigmaRad * options.sigmaRad };
   Eigen::LDLT<Matrix6> factors;
+  bool isConverged = false;
   for (int round = 0; round < MaximumRounds; ++round)
   {
     likelihood.linearize(result.pointsToLines);
@@ -199,6 +204,7 @@ void solveMaximumLikelihood(
     result.pointsToLines.linear() = nearestRotation(turned * result.pointsToLines.linear());
     result.pointsToLines.translation() = centre + turned * (result.pointsToLines.translation() - centre) + step.tail<3>();
     ++result.iterations;
+    isConverged = turn.norm() < NearlyStill;
     if (turn.norm() < Still && (isGiven || round >= NoiseRounds))
     {
       break;
@@ -213,6 +219,12 @@ void solveMaximumLikelihood(
   result.covariance = (isExact ? 0 : 1) * aboutOrigin * aboutCentre * aboutOrigin.transpose();
   result.sigmaMm = isExact ? 0 : std::sqrt(sigma.squareMm);
   result.sigmaRad = isExact ? 0 : std::sqrt(sigma.squareRad);
+  if (!isConverged || !result.covariance.allFinite() || !result.pointsToLines.matrix().allFinite())
+  {
+    result.status = PointLineResult::Status::NotConverged;
+    result.message = "the most likely solution was not reached: with this noise the data leave it open";
+    return;
+  }
   const double freedoms = std::max(1.0, 2.0 * double(pairs.size()) - 6);
   const double misfit = isExact ? 0 : std::sqrt(likelihood.squares(sigma, sigma) / freedoms);
   if (isGiven && options.maximumMisfit > 0 && misfit > options.maximumMisfit)

@@ -184,6 +184,11 @@ void PointLineOptions::check() const
   {
     throw std::invalid_argument("point-to-line options: noise of at least 0 and a robust factor above 1 are expected");
   }
+  if (sigmaRad > 0 && !linesAreRays)
+  {
+    throw std::invalid_argument("point-to-line options: noise of directions (rad) acts from the origins of rays; for lines give "
+                                "that of the points (mm) alone");
+  }
 }
 
 PointLineResult registerPointsToLines(const PointLinePairs& pairs, const PointLineOptions& options)

@@ -46,11 +46,16 @@ struct PointLineOptions
   /// The lines are rays: their points lie at origin + s * direction with s > 0. A minimum that has more points behind than in front
   /// of the origins is a mirrored one and is not taken, however small its cost.
   bool linesAreRays = false;
+  /// Of `Global` and `MaximumLikelihood`: look for every minimum, and call two ambiguous when noise alone may have made one of them the
+  /// lower: when their costs differ by less than 9 times the variance that the residuals show. Half a millisecond more. Without it a
+  /// minimum that is proven to be the lowest is taken, and rivals are those of the same cost.
+  bool findRivals = false;
   /// Cap of the iterations of `Procrustes`, `OrthogonalIteration` and `ProcrustesPnP`.
   int maximumIterations = 20000;
   /// They have converged when their root mean square distance changes by less than this (mm).
   double tolerance = 1e-12;
-  /// Of `MaximumLikelihood`: noise of the points (mm per axis) and of the directions (rad per axis). Both 0: their scale and their
+  /// Of `MaximumLikelihood`: noise of the points (mm per axis) and of the directions (rad per axis; of rays only, since it
+  /// acts from their origins). Both 0: their scale and their
   /// ratio are estimated from the residuals.
   double sigmaMm = 0;
   double sigmaRad = 0;

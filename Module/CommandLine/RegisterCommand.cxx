@@ -33,6 +33,7 @@ int runRegister(const RegisterArguments& arguments)
   }
   PointLineOptions options = arguments.options;
   options.maximumMisfit = 4;
+  options.findRivals = true;
   options.rejectOutliers = !arguments.keepAll;
   const PointLineResult registration = registerPointsToLines(pairs, options);
   if (registration.isUsable())
