@@ -36,8 +36,6 @@ constexpr double DistanceTolerance = 0.15;
 constexpr double LargestSigmaPx = 0.4;
 constexpr double LargestRoughSigmaPx = 1.0;
 
-/// A ball that is smaller than the largest one by this factor is far away: not the one that is held.
-constexpr double MuchSmaller = 3;
 /// An outline whose edges are so much wider (px) on two opposite sides moved while the picture was taken, by 10 px or more. Shading and
 /// reflections alone make up to 2.
 constexpr double LargestTwoSidedWidthPx = 2.2;
@@ -275,10 +273,6 @@ BallDetection BallDetector::detectExact(
                        : std::string("by the tracker the ball is out of view")));
     }
   }
-  const auto larger = [](const FoundBall& a, const FoundBall& b) { return a.evidence.radiusPx < b.evidence.radiusPx; };
-  const double largestPx = std::max_element(balls.begin(), balls.end(), larger)->evidence.radiusPx;
-  const auto isFarAway = [&](const FoundBall& found) { return MuchSmaller * found.evidence.radiusPx < largestPx; };
-  balls.erase(std::remove_if(balls.begin(), balls.end(), isFarAway), balls.end());
   if (balls.size() > 1 && balls[0].score() < options_.distinctionFactor * balls[1].score())
   {
     return refuse(
