@@ -83,6 +83,7 @@ bool FramePairing::isReady(const DeviceSample& image) const
 PairedFrame FramePairing::pair(DeviceSample image) const
 {
   PairedFrame paired;
+  paired.latencySec = options_.latencySec;
   paired.poseTimeSec = image.timeSec + options_.latencySec;
   for (const std::string& name : options_.toolNames)
   {

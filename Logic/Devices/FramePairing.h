@@ -33,6 +33,7 @@ struct PairedFrame
 {
   DeviceSample image;
   double poseTimeSec = 0;                   ///< the moment of the poses, by the tracker's times
+  double latencySec = 0;                    ///< that is in it
   std::map<std::string, PoseAtTime> poses;  ///< by tool; each says itself whether and why (not) it is usable
 };
 

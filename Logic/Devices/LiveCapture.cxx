@@ -152,7 +152,7 @@ io::SessionSample toSessionSample(const PairedFrame& frame)
 {
   io::SessionSample sample;
   sample.timeSec = frame.image.timeSec;
-  sample.pairing = { { "poseTimeSec", frame.poseTimeSec } };
+  sample.pairing = { { "poseTimeSec", frame.poseTimeSec }, { "latencySec", frame.latencySec } };
   for (const auto& [name, pose] : frame.poses)
   {
     sample.transforms[name] = toSequenceTransform(pose.transform, pose.isUsable());

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StreamRecorder.h"
 
+#include "NumberText.h"
+
 #include <exception>
 
 namespace handeye::devices
@@ -12,11 +14,13 @@ io::SequenceTransform toSequenceTransform(const Eigen::Isometry3d& transform, bo
   return { transform.matrix(), isValid ? "OK" : "INVALID" };
 }
 
-StreamRecorder::StreamRecorder(const std::filesystem::path& video, const std::filesystem::path& poses)
+StreamRecorder::StreamRecorder(const std::filesystem::path& video, const std::filesystem::path& poses, double appliedLatencySec)
 {
   if (!video.empty())
   {
-    video_ = std::make_unique<io::SequenceMetafileWriter>(video);
+    io::SequenceMetafileWriterOptions options;
+    options.fields[io::AppliedLatencyField] = io::formatDouble(appliedLatencySec);
+    video_ = std::make_unique<io::SequenceMetafileWriter>(video, options);
   }
   if (!poses.empty())
   {

@@ -67,6 +67,13 @@ bool isTemporary(const Path& file)
   return name.rfind(".handeye-", 0) == 0 && file.extension() == ".tmp";
 }
 
+/// 0 where a sample does not say.
+double latencyOf(const SessionSample& sample)
+{
+  const Json value = sample.pairing.is_object() ? sample.pairing.value("latencySec", Json()) : Json();
+  return value.is_number() ? value.get<double>() : 0;
+}
+
 bool isDocumentName(const std::string& name)
 {
   const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
@@ -232,6 +239,11 @@ int Session::addSample(const cv::Mat& image, SessionSample sample)
   {
     throw std::invalid_argument("an image of 8 or 16 bits is expected for a session's sample");
   }
+  if (const std::optional<double> latency = latencySec(); latency && *latency != latencyOf(sample))
+  {
+    throw std::invalid_argument("the session's samples have a latency of " + formatDouble(1000 * *latency) + " ms, this one of " +
+      formatDouble(1000 * latencyOf(sample)) + " ms: all have the same, or a new session is begun");
+  }
   sample.id = nextId_;
   const Path imagePath = folder_ / "frames" / (frameDigits(sample.id) + ".png");
   writeFileAtomically(imagePath, { reinterpret_cast<const char*>(png.data()), png.size() });
@@ -285,6 +297,7 @@ void Session::writeTracking()
 {
   SequenceMetafileWriterOptions options;
   options.transformsOnly = true;
+  options.fields[AppliedLatencyField] = formatDouble(latencySec().value_or(0));
   SequenceMetafileWriter writer(folder_ / "tracking.igs.mha", options);
   for (int id = 0; id < nextId_; ++id)
   {
@@ -328,6 +341,11 @@ std::vector<std::string> Session::documentNames() const
     names.push_back(document.first);
   }
   return names;
+}
+
+std::optional<double> Session::latencySec() const
+{
+  return samples_.empty() ? std::nullopt : std::optional<double>(latencyOf(samples_.begin()->second));
 }
 
 cv::Mat Session::image(int id) const

@@ -77,6 +77,9 @@ public:
 
   const std::filesystem::path& folder() const { return folder_; }
   const std::map<int, SessionSample>& samples() const { return samples_; }
+  /// The latency that the samples' poses have been taken at (`latencySec` of their pairing); nothing without samples. All have the same:
+  /// addSample() refuses others.
+  std::optional<double> latencySec() const;
   /// The image of a sample. @throws FileError
   cv::Mat image(int id) const;
 

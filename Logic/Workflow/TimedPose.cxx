@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TimedPose.h"
 
+#include "NumberText.h"
 #include "PoseTrack.h"
+
+#include <cmath>
 
 namespace handeye
 {
@@ -16,6 +19,13 @@ io::TransformSample without(io::TransformSample::Status status, const std::strin
   sample.status = status;
   sample.reason = reason;
   return sample;
+}
+
+/// What has not been applied yet; what is below a microsecond is the rounding of a text.
+double missingLatency(const io::Recording& recording, double latencySec)
+{
+  const double missingSec = latencySec == 0 ? 0 : latencySec - recording.appliedLatencySec();
+  return std::abs(missingSec) < 1e-6 ? 0 : missingSec;
 }
 
 /// Adds a frame's pose; returns false where it has no time.
@@ -32,8 +42,9 @@ bool addPose(const io::Recording& recording, int frame, const std::string& name,
 
 }  // namespace
 
-io::TransformSample poseOfFrame(const io::Recording& recording, int frame, const std::string& name, double latencySec)
+io::TransformSample poseOfFrame(const io::Recording& recording, int frame, const std::string& name, double wantedLatencySec)
 {
+  const double latencySec = missingLatency(recording, wantedLatencySec);
   if (latencySec == 0)
   {
     return recording.transform(frame, name);
@@ -69,6 +80,21 @@ io::TransformSample poseOfFrame(const io::Recording& recording, int frame, const
   sample.status = io::TransformSample::Status::Ok;
   sample.transform = pose.transform;
   return sample;
+}
+
+std::vector<std::string> latencyNotes(const io::Recording& recording, double latencySec)
+{
+  const double appliedSec = recording.appliedLatencySec(), missingSec = missingLatency(recording, latencySec);
+  if (appliedSec == 0)
+  {
+    return {};
+  }
+  const std::string note = recording.path().string() + ": its poses were recorded with a latency of " +
+    io::formatDouble(std::round(1e6 * appliedSec) / 1e3) + " ms";
+  return { note +
+    (missingSec == 0
+        ? ", which is not applied again"
+        : "; " + io::formatDouble(std::round(1e6 * missingSec) / 1e3) + " ms are added to make it what is asked for") };
 }
 
 }  // namespace handeye

@@ -80,7 +80,7 @@ class RecordingBeside
 {
 public:
   RecordingBeside(const CaptureArguments& arguments, const CommandOutput& output)
-    : recorder_(arguments.record, arguments.poses)
+    : recorder_(arguments.record, arguments.poses, arguments.sources.pairing.latencySec)
     , output_(output)
   {
   }
@@ -108,6 +108,13 @@ int runCapture(CaptureArguments& arguments)
   const io::CameraFile camera = io::readCameraFile(arguments.camera);
   const Eigen::Vector3d tip_Stylus = readStylusTip(arguments.stylus);
   io::Session session = io::Session::openOrCreate(arguments.session);
+  const double latencySec = arguments.sources.pairing.latencySec;
+  if (session.latencySec().value_or(latencySec) != latencySec)
+  {
+    throw io::FileError(arguments.session,
+      format("its samples have a latency of %.1f ms and --latency is %.1f ms; all have the same, or a new session is begun",
+        1000 * *session.latencySec(), 1000 * latencySec));
+  }
   arguments.output.warn(camera.warnings);
   arguments.output.warn(session.problems());
   devices::LiveCapture capture(camera.camera, tip_Stylus, session, arguments.options);

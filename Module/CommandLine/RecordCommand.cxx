@@ -31,7 +31,7 @@ int runRecord(RecordArguments& arguments)
   {
     throw CLI::ValidationError("record", "-o FILE or --poses FILE is expected");
   }
-  devices::StreamRecorder recorder(arguments.output.file, arguments.poses);
+  devices::StreamRecorder recorder(arguments.output.file, arguments.poses, arguments.sources.pairing.latencySec);
   arguments.sources.start();
   catchStopSignals();
   devices::FramePairing pairing(arguments.sources.pairing);

@@ -46,7 +46,7 @@ public:
 private:
   std::vector<std::string> servers_;
   std::string video_, replay_;
-  double speed_ = 1, latencyMs_ = 0, waitSec_ = 10;
+  double speed_ = 1, waitSec_ = 10;
   std::vector<std::unique_ptr<devices::Source>> sources_;
   std::map<std::size_t, devices::ClockOffset> offsets_;
   std::size_t next_ = 0;

@@ -85,6 +85,16 @@ TEST(LiveCapture, EachPlaceIsStoredOnce_WhereItIs)
   }
 }
 
+TEST(LiveCapture, LatencyOfThePairing_IsKeptWithTheSample)
+{
+  PairedFrame frame;
+  frame.latencySec = -0.04;
+  EXPECT_EQ(toSessionSample(frame).pairing.at("latencySec"), -0.04);
+  const TemporaryFolder folder;
+  const SimulatedRoom room(fivePlaces());
+  EXPECT_EQ(framesOf(room, 1, -0.04).at(0).latencySec, -0.04);
+}
+
 TEST(LiveCapture, SessionThatIsContinued_KnowsItsPlaces)
 {
   const TemporaryFolder folder;

@@ -104,6 +104,22 @@ TEST(Session, IsARecording_WithoutTheExcluded)
   EXPECT_TRUE(Recording::open(folder.path() / "s").transform(1, "StylusToTracker").isUsable());
 }
 
+TEST(Session, LatencyOfItsSamples_IsOneAndThatOfTheRecording)
+{
+  const TemporaryFolder folder;
+  SessionSample sample = sampleOf(0), other = sampleOf(1);
+  sample.pairing["latencySec"] = -0.04;
+  {
+    Session session = Session::create(folder.path() / "s");
+    EXPECT_FALSE(session.latencySec());
+    session.addSample(pictureOf(0), sample);
+    EXPECT_THROW(session.addSample(pictureOf(1), other), std::invalid_argument);
+    EXPECT_EQ(session.samples().size(), 1U);
+  }
+  EXPECT_EQ(Session::open(folder.path() / "s").latencySec(), -0.04);
+  EXPECT_EQ(Recording::open(folder.path() / "s").appliedLatencySec(), -0.04);
+}
+
 TEST(Session, DamagedParts_AreReportedAndTheRestOpened)
 {
   const TemporaryFolder folder;

@@ -79,6 +79,17 @@ TEST(StreamRecorder, ReadsBackImagesAndPoses)
   EXPECT_EQ(poses.transform(4, "MarkerToTracker").transform.translation().x(), 104);
 }
 
+TEST(StreamRecorder, LatencyOfThePairing_IsWritten)
+{
+  const TemporaryFolder folder;
+  StreamRecorder recorder(folder.path() / "video.igs.mha", folder.path() / "poses.igs.mha", -0.04);
+  recorder.add(frameAt(0));
+  recorder.add(poseAt(100, "StylusToTracker", true));
+  ASSERT_TRUE(recorder.close()) << recorder.error();
+  EXPECT_EQ(Recording::open(folder.path() / "video.igs.mha").appliedLatencySec(), -0.04);
+  EXPECT_EQ(Recording::open(folder.path() / "poses.igs.mha").appliedLatencySec(), 0) << "these are by their own times";
+}
+
 TEST(StreamRecorder, FullDisk_EndsTheRecordingAndNothingElse)
 {
   const TemporaryFolder folder;

@@ -14,9 +14,11 @@ using io::TransformSample;
 using io::test::TemporaryFolder;
 
 /// Ten frames, 40 ms apart: the tool moves by 100 mm/s; hidden in frame 7.
-io::Recording recordingIn(const TemporaryFolder& folder)
+io::Recording recordingIn(const TemporaryFolder& folder, const std::string& appliedSec = "0")
 {
-  io::SequenceMetafileWriter writer(folder.path() / "r.igs.mha");
+  io::SequenceMetafileWriterOptions options;
+  options.fields[io::AppliedLatencyField] = appliedSec;
+  io::SequenceMetafileWriter writer(folder.path() / "r.igs.mha", options);
   for (int i = 0; i < 10; ++i)
   {
     io::SequenceFrame frame;
@@ -50,6 +52,21 @@ TEST(TimedPose, OutsideOrHidden_HasNoPose)
   EXPECT_EQ(poseOfFrame(recording, 9, "MarkerToTracker", 0.01).status, TransformSample::Status::Invalid);
   EXPECT_EQ(poseOfFrame(recording, 6, "MarkerToTracker", 0.02).status, TransformSample::Status::Invalid);
   EXPECT_EQ(poseOfFrame(recording, 4, "StylusToTracker", 0.02).status, TransformSample::Status::Missing);
+}
+
+TEST(TimedPose, LatencyThatWasApplied_IsNotAppliedAgain)
+{
+  const TemporaryFolder folder;
+  const io::Recording recording = recordingIn(folder, "-0.04");
+  EXPECT_EQ(recording.appliedLatencySec(), -0.04);
+  EXPECT_NEAR(poseOfFrame(recording, 4, "MarkerToTracker", -0.04).transform.translation().x(), 16, 1e-9);
+  EXPECT_NEAR(poseOfFrame(recording, 4, "MarkerToTracker", 0).transform.translation().x(), 16, 1e-9) << "as recorded";
+  EXPECT_NEAR(poseOfFrame(recording, 4, "MarkerToTracker", -0.06).transform.translation().x(), 14, 1e-9) << "what is missing";
+  ASSERT_EQ(latencyNotes(recording, -0.04).size(), 1U);
+  EXPECT_NE(latencyNotes(recording, -0.04)[0].find("-40 ms, which is not applied again"), std::string::npos);
+  EXPECT_NE(latencyNotes(recording, -0.06)[0].find("-20 ms are added"), std::string::npos);
+  EXPECT_TRUE(latencyNotes(recordingIn(folder), -0.06).empty());
+  io::test::expectFileError([&] { (void)recordingIn(folder, "forty"); }, { "AppliedLatencySec", "forty" });
 }
 
 TEST(TimedPose, Overlay_AppliesTheLatency)
