@@ -50,7 +50,7 @@ class FramePairing
 public:
   explicit FramePairing(const FramePairingOptions& options = {});
 
-  /// Takes a sample: poses and images, others are ignored. Samples with times that are not finite or not after 0 are refused.
+  /// Takes a sample: poses and images, others are ignored. Samples with times that are not finite or before 0 are refused.
   void add(DeviceSample sample);
 
   /// The next image that has all it waits for, or has waited long enough.

@@ -219,6 +219,24 @@ TEST(OpenIGTLinkClient, DamagedMessage_IsLeftOutAndTheNextTaken)
   EXPECT_EQ(client.status().connectionCount, 1U);
 }
 
+TEST(OpenIGTLinkClient, SenderWithoutTimes_HasThoseOfArrivalAndAWarning)
+{
+  RawServer server;
+  OpenIGTLinkClient client(clientOf(server.port()));
+  const double beginSec = systemTimeSec();
+  client.start();
+  ASSERT_TRUE(server.acceptClient());
+  server.send(packTransform("StylusToTracker", 0, shiftedBy(1)));
+  server.send(packTransform("StylusToTracker", 0, shiftedBy(2)));
+  const std::optional<DeviceSample> first = popNamed(client, "StylusToTracker");
+  const std::optional<DeviceSample> second = popNamed(client, "StylusToTracker");
+  ASSERT_TRUE(first && second);
+  EXPECT_GE(first->timeSec, beginSec);
+  EXPECT_LE(first->timeSec, second->timeSec);
+  EXPECT_LE(second->timeSec, second->receivedSec);
+  EXPECT_NE(client.status().message.find("'StylusToTracker' has no time"), std::string::npos) << client.status().message;
+}
+
 TEST(OpenIGTLinkClient, OnlyDamagedMessages_EndTheConnection)
 {
   RawServer server;
