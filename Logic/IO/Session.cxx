@@ -74,6 +74,21 @@ double latencyOf(const SessionSample& sample)
   return value.is_number() ? value.get<double>() : 0;
 }
 
+/// Whether a folder is empty, or has no more than what a session leaves that was killed while it was being made: its lock, and what
+/// has nothing in it.
+bool isBegun(const Path& folder)
+{
+  const std::vector<Path> files = filesOf(folder);
+  const auto isOurs = [](const Path& file)
+  {
+    const std::string name = file.filename().string();
+    const bool isPart = name == "frames" || name == "samples" || name == "documents";
+    return name == ".lock" || name == "tracking.igs.mha" || isTemporary(file) ||
+      (isPart && std::filesystem::is_directory(file) && std::filesystem::is_empty(file));
+  };
+  return files.empty() || (std::filesystem::exists(folder / ".lock") && std::all_of(files.begin(), files.end(), isOurs));
+}
+
 bool isDocumentName(const std::string& name)
 {
   const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
@@ -117,7 +132,7 @@ Session::~Session() = default;
 Session Session::create(const Path& folder)
 {
   makeFolder(folder);
-  if (!std::filesystem::is_empty(folder))
+  if (!isBegun(folder))
   {
     throw FileError(folder, "the folder is not empty; a session is made in an empty or new one");
   }
