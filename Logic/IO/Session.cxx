@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace handeye::io
@@ -65,6 +66,34 @@ bool isTemporary(const Path& file)
 {
   const std::string name = file.filename().string();
   return name.rfind(".handeye-", 0) == 0 && file.extension() == ".tmp";
+}
+
+/// Whatever could not be written, or not be read again.
+void checkSample(const SessionSample& sample)
+{
+  if (!std::isfinite(sample.timeSec))
+  {
+    throw std::invalid_argument("a session's sample: its time is not finite");
+  }
+  for (const auto& [name, transform] : sample.transforms)
+  {
+    const bool isName = !name.empty() && name.find_first_of(" \t\r\n=") == std::string::npos &&
+      (withoutTransformSuffix(name) == name || sample.transforms.count(withoutTransformSuffix(name)) == 0);
+    if (!isName || transform.status.find_first_of("\r\n") != std::string::npos ||
+      (transform.matrix && !transform.matrix->allFinite()))
+    {
+      throw std::invalid_argument("a session's sample: the transform " + inQuotes(name) +
+        " is not finite, or its name or status cannot be written (blanks, '=', line ends, or there twice)");
+    }
+  }
+  try
+  {
+    (void)toJson(StoredSample{ sample, 0, 0 }).dump();
+  }
+  catch (const Json::exception& error)
+  {
+    throw std::invalid_argument(std::string("a session's sample cannot be written (") + error.what() + ")");
+  }
 }
 
 /// 0 where a sample does not say.
@@ -249,6 +278,7 @@ void Session::readSample(const Path& path, int id)
 
 int Session::addSample(const cv::Mat& image, SessionSample sample)
 {
+  checkSample(sample);
   std::vector<std::uint8_t> png;
   if (image.empty() || !cv::imencode(".png", image, png, { cv::IMWRITE_PNG_COMPRESSION, 1 }))
   {
@@ -267,7 +297,7 @@ int Session::addSample(const cv::Mat& image, SessionSample sample)
   {
     writeSample(sample, stored.bytes, stored.crc);
   }
-  catch (const FileError&)
+  catch (...)
   {
     std::error_code ignored;
     std::filesystem::remove(imagePath, ignored);
@@ -302,7 +332,7 @@ void Session::refreshTracking()
   {
     writeTracking();
   }
-  catch (const FileError& error)
+  catch (const std::exception& error)
   {
     problems_.push_back(error.what());
   }

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <limits>
 
 namespace
 {
@@ -216,6 +217,32 @@ TEST(Session, DocumentNames_AreNoPaths)
   EXPECT_THROW(session.setDocument("../stylus", {}), std::invalid_argument);
   EXPECT_THROW(session.setDocument("", {}), std::invalid_argument);
   EXPECT_THROW(session.addSample(cv::Mat(), {}), std::invalid_argument);
+}
+
+TEST(Session, SampleThatCouldNotBeReadAgain_IsRefusedBeforeAnythingIsWritten)
+{
+  const TemporaryFolder folder;
+  Session session = Session::create(folder.path() / "s");
+  addSamples(session, 1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<SessionSample> bad(6, sampleOf(1));
+  bad[0].timeSec = nan;
+  (*bad[1].transforms["StylusToTracker"].matrix)(1, 3) = nan;
+  bad[2].transforms["My NeedleToTracker"] = bad[2].transforms["StylusToTracker"];
+  bad[3].transforms["Stylus\xff"] = bad[3].transforms["StylusToTracker"];
+  bad[4].transforms["StylusToTrackerTransform"] = bad[4].transforms["StylusToTracker"];
+  bad[5].detection["message"] = "\xff";
+  for (std::size_t i = 0; i < bad.size(); ++i)
+  {
+    EXPECT_THROW(session.addSample(pictureOf(1), bad[i]), std::invalid_argument) << i;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "s/frames/0001.png")) << i;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "s/samples/0001.json")) << i;
+  }
+  EXPECT_EQ(session.addSample(pictureOf(1), sampleOf(1)), 1);
+  session = Session::create(folder.path() / "t");
+  const Session again = Session::open(folder.path() / "s");
+  EXPECT_TRUE(again.problems().empty());
+  EXPECT_EQ(again.samples().size(), 2U);
 }
 
 /// A program that adds samples, each with the next content, and announces each number on a pipe, until it is killed.
