@@ -54,7 +54,7 @@ public:
       }
       problem = step.status == devices::LiveCapture::Step::Status::Moving ? "" : step.message;
     }
-    catch (const io::FileError& error)
+    catch (const std::exception& error)
     {
       problem = error.what();
     }
@@ -135,6 +135,7 @@ int runCapture(CaptureArguments& arguments)
     {
       recording.add(*sample);
       pairing.add(std::move(*sample));
+      arguments.sources.warnOfOtherImages(pairing, arguments.output);
     }
     for (std::optional<devices::PairedFrame> frame; !isDone() && (frame = pairing.take());)
     {

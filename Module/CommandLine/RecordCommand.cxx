@@ -47,6 +47,7 @@ int runRecord(RecordArguments& arguments)
     {
       recorder.add(*sample);
       pairing.add(std::move(*sample));
+      arguments.sources.warnOfOtherImages(pairing, arguments.output);
     }
     while (!isDone() && record(pairing.take()))
     {

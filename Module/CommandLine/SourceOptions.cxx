@@ -50,6 +50,8 @@ void LiveSources::addTo(CLI::App& command)
   from->require_option(1, 0);
   command.add_option("--speed", speed_, "Of the replay; 0 for as fast as possible")->check(CLI::NonNegativeNumber);
   addLatencyOption(command, pairing.latencySec);
+  command.add_option("--image", pairing.imageName, "Which video, where there are several; the first that comes otherwise")
+    ->type_name("NAME");
   command.add_option("--wait", waitSec_, "How long to wait for the sources to come up, s")->capture_default_str()->type_name("SEC");
 }
 
@@ -112,6 +114,17 @@ std::optional<devices::DeviceSample> LiveSources::pop(double timeoutSec)
     }
   } while (devices::systemTimeSec() < endSec);
   return std::nullopt;
+}
+
+void LiveSources::warnOfOtherImages(const devices::FramePairing& pairs, const CommandOutput& output)
+{
+  for (const std::string& name : pairs.otherImages())
+  {
+    if (saidImages_.insert(name).second)
+    {
+      output.warn({ "images of '" + name + "' are left out: '" + pairs.imageName() + "' is taken; --image NAME chooses" });
+    }
+  }
 }
 
 bool LiveSources::isAlive() const
