@@ -8,9 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 
 #include <fstream>
+#include <tuple>
 
 namespace
 {
@@ -235,6 +239,37 @@ TEST(OpenIGTLinkClient, SenderWithoutTimes_HasThoseOfArrivalAndAWarning)
   EXPECT_LE(first->timeSec, second->timeSec);
   EXPECT_LE(second->timeSec, second->receivedSec);
   EXPECT_NE(client.status().message.find("'StylusToTracker' has no time"), std::string::npos) << client.status().message;
+}
+
+/// Without them, a machine that lost its power is noticed after two hours.
+TEST(OpenIGTLinkClient, Connections_AskWhetherTheOtherSideIsThere)
+{
+  RawServer server;
+  OpenIGTLinkClient client(clientOf(server.port()));
+  client.start();
+  ASSERT_TRUE(server.acceptClient());
+  int connections = 0;
+  for (int descriptor = 0; descriptor < 256; ++descriptor)
+  {
+    sockaddr_in peer = {};
+    socklen_t size = sizeof(peer);
+    if (getpeername(descriptor, reinterpret_cast<sockaddr*>(&peer), &size) != 0 || peer.sin_family != AF_INET)
+    {
+      continue;
+    }
+    ++connections;
+    int isAlive = 0, idleSec = 0, intervalSec = 0, probes = 0;
+    for (const auto& [level, option, value] :
+      { std::make_tuple(SOL_SOCKET, SO_KEEPALIVE, &isAlive), std::make_tuple(int(IPPROTO_TCP), TCP_KEEPIDLE, &idleSec),
+        std::make_tuple(int(IPPROTO_TCP), TCP_KEEPINTVL, &intervalSec), std::make_tuple(int(IPPROTO_TCP), TCP_KEEPCNT, &probes) })
+    {
+      socklen_t bytes = sizeof(*value);
+      ASSERT_EQ(getsockopt(descriptor, level, option, value, &bytes), 0);
+    }
+    EXPECT_NE(isAlive, 0);
+    EXPECT_LE(idleSec + intervalSec * probes, 10);
+  }
+  EXPECT_EQ(connections, 2) << "the client's end and the server's";
 }
 
 TEST(OpenIGTLinkClient, OnlyDamagedMessages_EndTheConnection)
