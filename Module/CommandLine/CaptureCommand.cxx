@@ -86,14 +86,21 @@ public:
   }
 
   template<typename Sample> void add(const Sample& sample) { warnIf(!recorder_.add(sample)); }
-  void close() { warnIf(!recorder_.close()); }
+  void close()
+  {
+    warnIf(!recorder_.close());
+    if (recorder_.leftOutCount() > 0)
+    {
+      output_.warn({ std::to_string(recorder_.leftOutCount()) + " were left out, the first: " + recorder_.leftOutReason() });
+    }
+  }
 
 private:
   void warnIf(bool hasFailed)
   {
     if (hasFailed && !isSaid_)
     {
-      output_.warn({ "the recording has ended, the capture goes on: " + recorder_.error() });
+      output_.warn({ "the recording has ended with what it has so far, the capture goes on: " + recorder_.error() });
       isSaid_ = true;
     }
   }
