@@ -5,6 +5,7 @@
 #include "NumberText.h"
 #include "PoseTrack.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace handeye
@@ -26,6 +27,30 @@ double missingLatency(const io::Recording& recording, double latencySec)
 {
   const double missingSec = latencySec == 0 ? 0 : latencySec - recording.appliedLatencySec();
   return std::abs(missingSec) < 1e-6 ? 0 : missingSec;
+}
+
+/// A gap over which poses are interpolated: what is usual between the frames of a recording (from nearby: enough of them for a
+/// median) and half as much, at least 0.1 s; at most 0.5 s, beyond which nobody knows where the tool was.
+double largestGapSec(const io::Recording& recording, int frame)
+{
+  constexpr int Nearby = 15;
+  constexpr double LeastSec = 0.1, MostSec = 0.5, Slack = 1.5;
+  std::vector<double> spacings;
+  for (int i = std::max(1, frame - Nearby); i < std::min(recording.frameCount(), frame + Nearby); ++i)
+  {
+    const std::optional<double> before = recording.timestampSec(i - 1), after = recording.timestampSec(i);
+    if (before && after && *after > *before)
+    {
+      spacings.push_back(*after - *before);
+    }
+  }
+  if (spacings.empty())
+  {
+    return LeastSec;
+  }
+  const auto middle = spacings.begin() + std::ptrdiff_t(spacings.size() / 2);
+  std::nth_element(spacings.begin(), middle, spacings.end());
+  return std::clamp(Slack * *middle, LeastSec, MostSec);
 }
 
 /// Adds a frame's pose; returns false where it has no time.
@@ -57,6 +82,7 @@ io::TransformSample poseOfFrame(const io::Recording& recording, int frame, const
   const double timeSec = *frameSec + latencySec;
   PoseTrackOptions options;
   options.maximumRepeatSec = 0;  // judged when it was recorded
+  options.maximumGapSec = largestGapSec(recording, frame);
   PoseTrack track(options);
   addPose(recording, frame, name, track);
   // From the frame towards the moment, until one frame is beyond it.

@@ -44,6 +44,28 @@ TEST(TimedPose, Latency_InterpolatesBetweenFrames)
   }
 }
 
+/// 5 and 10 frames a second are recordings, too; placements that are seconds apart are not.
+TEST(TimedPose, SlowRecordings_AreInterpolatedAndPlacementsAreNot)
+{
+  for (double spacingSec : { 0.1, 0.2, 3.0 })
+  {
+    const TemporaryFolder folder;
+    io::SequenceMetafileWriter writer(folder.path() / "slow.igs.mha");
+    for (int i = 0; i < 10; ++i)
+    {
+      io::SequenceFrame frame;
+      frame.timestampSec = 1700000000 + spacingSec * i;
+      frame.transforms["MarkerToTracker"] = { test::makeRigid({ 0, 0, 0 }, { 100 * spacingSec * i, 0, 0 }).matrix(), "OK" };
+      writer.append(frame);
+    }
+    writer.close();
+    const io::Recording recording = io::Recording::open(folder.path() / "slow.igs.mha");
+    const TransformSample pose = poseOfFrame(recording, 4, "MarkerToTracker", -0.04);
+    ASSERT_EQ(pose.isUsable(), spacingSec < 1) << spacingSec << ": " << pose.reason;
+    EXPECT_NEAR(pose.transform.translation().x(), pose.isUsable() ? 400 * spacingSec - 4 : 0, 1e-4) << spacingSec;
+  }
+}
+
 TEST(TimedPose, OutsideOrHidden_HasNoPose)
 {
   const TemporaryFolder folder;
