@@ -57,7 +57,7 @@ void OpenIGTLinkClient::run()
   }
   catch (const ConnectionError& error)
   {
-    setState(SourceState::Connecting, name() + ": " + error.what() + "; trying again");
+    setProblem(name() + ": " + error.what() + "; trying again");
   }
 }
 
