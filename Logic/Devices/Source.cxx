@@ -104,9 +104,9 @@ void Source::setState(SourceState state, const std::string& message)
 
 void Source::setProblem(const std::string& message)
 {
-  setState(SourceState::Connecting, message);
   const std::lock_guard lock(mutex_);
-  status_.lastProblem = message;
+  status_.state = SourceState::Connecting;
+  status_.message = status_.lastProblem = message;
 }
 
 void Source::countConnection()
