@@ -12,7 +12,7 @@ namespace
 {
 
 /// A hostile sender may invent tools without end.
-constexpr std::size_t LargestTrackCount = 200;
+constexpr std::size_t LargestTrackCount = 200, LargestOtherCount = 10;
 
 }  // namespace
 
@@ -29,13 +29,29 @@ void FramePairing::clear()
   newestSec_ = 0;
 }
 
+bool FramePairing::isWanted(const DeviceSample& sample)
+{
+  if (sample.pose())
+  {
+    return options_.toolNames.empty() ||
+      std::find(options_.toolNames.begin(), options_.toolNames.end(), sample.name) != options_.toolNames.end();
+  }
+  if (!sample.frame())
+  {
+    return false;
+  }
+  options_.imageName = options_.imageName.empty() ? sample.name : options_.imageName;
+  if (sample.name != options_.imageName && otherImages_.size() < LargestOtherCount)
+  {
+    otherImages_.insert(sample.name);
+  }
+  return sample.name == options_.imageName;
+}
+
 void FramePairing::add(DeviceSample sample)
 {
   const TrackedPose* pose = sample.pose();
-  const bool isWanted = pose ? options_.toolNames.empty() ||
-      std::find(options_.toolNames.begin(), options_.toolNames.end(), sample.name) != options_.toolNames.end()
-                             : sample.frame() && (options_.imageName.empty() || sample.name == options_.imageName);
-  if (!isWanted)
+  if (!isWanted(sample))
   {
     return;
   }
@@ -83,6 +99,7 @@ bool FramePairing::isReady(const DeviceSample& image) const
 PairedFrame FramePairing::pair(DeviceSample image) const
 {
   PairedFrame paired;
+  paired.latencySec = options_.latencySec;
   paired.poseTimeSec = image.timeSec + options_.latencySec;
   for (const std::string& name : options_.toolNames)
   {

@@ -9,6 +9,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace handeye::devices
 struct FramePairingOptions
 {
   std::vector<std::string> toolNames;  ///< "StylusToTracker", ...; empty: every tool that was seen
-  std::string imageName;               ///< of the video; empty: any
+  std::string imageName;               ///< of the video; empty: the first that comes
   /// The poses belong to an image at its own time plus this. Positive: the tracker's times run ahead of (are later than) the
   /// video's.
   double latencySec = 0;
@@ -33,6 +34,7 @@ struct PairedFrame
 {
   DeviceSample image;
   double poseTimeSec = 0;                   ///< the moment of the poses, by the tracker's times
+  double latencySec = 0;                    ///< that is in it
   std::map<std::string, PoseAtTime> poses;  ///< by tool; each says itself whether and why (not) it is usable
 };
 
@@ -49,7 +51,7 @@ class FramePairing
 public:
   explicit FramePairing(const FramePairingOptions& options = {});
 
-  /// Takes a sample: poses and images, others are ignored. Samples with times that are not finite or not after 0 are refused.
+  /// Takes a sample: poses and images, others are ignored. Samples with times that are not finite or before 0 are refused.
   void add(DeviceSample sample);
 
   /// The next image that has all it waits for, or has waited long enough.
@@ -61,16 +63,23 @@ public:
   /// Forgets everything, for instance after a source came back.
   void clear();
 
+  /// Other videos than the one that is taken, at most ten: they are left out, since two cameras are not one.
+  const std::set<std::string>& otherImages() const { return otherImages_; }
+  /// The video that is taken; empty before the first image.
+  const std::string& imageName() const { return options_.imageName; }
+
   std::uint64_t refusedCount() const { return refused_; }  ///< samples that were too old or without a sensible time
   std::uint64_t clockJumpCount() const { return clockJumps_; }
 
 private:
+  bool isWanted(const DeviceSample& sample);
   bool isReady(const DeviceSample& image) const;
   PairedFrame pair(DeviceSample image) const;
 
   FramePairingOptions options_;
   std::map<std::string, PoseTrack> tracks_;
   std::deque<DeviceSample> waiting_;
+  std::set<std::string> otherImages_;
   double newestSec_ = 0;
   std::uint64_t refused_ = 0, clockJumps_ = 0;
 };

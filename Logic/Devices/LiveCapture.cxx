@@ -130,6 +130,17 @@ LiveCapture::Step LiveCapture::add(const PairedFrame& frame)
 LiveCapture::Step LiveCapture::store(const PairedFrame& frame, const Eigen::Vector3d& tip_Marker)
 {
   const cv::Mat& image = frame.image.frame()->image;
+  const bool isSize = !camera_.hasImageSize() || (image.cols == camera_.width() && image.rows == camera_.height());
+  if (!isSize || image.empty() || image.channels() < 3)
+  {
+    return step(Status::WrongImage,
+      "'" + frame.image.name + "' has " + std::to_string(image.cols) + " x " + std::to_string(image.rows) + " px and " +
+        std::to_string(image.channels()) + " channels; " +
+        (image.channels() < 3
+            ? std::string("colours are")
+            : std::to_string(camera_.width()) + " x " + std::to_string(camera_.height()) + " px of the camera's calibration are") +
+        " expected");
+  }
   const BallDetection ball = detectBall(image, camera_, options_.ballRadiusMm, options_.detection);
   if (!ball.isFound())
   {
@@ -152,7 +163,7 @@ io::SessionSample toSessionSample(const PairedFrame& frame)
 {
   io::SessionSample sample;
   sample.timeSec = frame.image.timeSec;
-  sample.pairing = { { "poseTimeSec", frame.poseTimeSec } };
+  sample.pairing = { { "poseTimeSec", frame.poseTimeSec }, { "latencySec", frame.latencySec } };
   for (const auto& [name, pose] : frame.poses)
   {
     sample.transforms[name] = toSequenceTransform(pose.transform, pose.isUsable());

@@ -51,7 +51,8 @@ public:
       Moving,     ///< not still, or not for long enough
       SamePlace,  ///< move on
       NoPose,     ///< a tool is not seen, or its poses cannot be believed
-      NoBall      ///< still, but the ball is not found in the image
+      NoBall,     ///< still, but the ball is not found in the image
+      WrongImage  ///< of another size than the camera's, or not in colour
     };
     Status status = Status::Moving;
     int sampleId = -1;

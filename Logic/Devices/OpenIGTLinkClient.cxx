@@ -48,6 +48,7 @@ void OpenIGTLinkClient::run()
   {
     const Socket socket = Socket::connectTo(options_.host, options_.port, options_.connectTimeoutSec, wakeUp_);
     damagedInARow_ = 0;
+    isWithoutTimes_ = false;
     countConnection();
     setState(SourceState::Streaming, "connected to " + name());
     while (receiveMessage(socket))
@@ -56,7 +57,7 @@ void OpenIGTLinkClient::run()
   }
   catch (const ConnectionError& error)
   {
-    setState(SourceState::Connecting, name() + ": " + error.what() + "; trying again");
+    setProblem(name() + ": " + error.what() + "; trying again");
   }
 }
 
@@ -145,8 +146,16 @@ void OpenIGTLinkClient::deliverMessage(const MessageHeader& header)
     return;
   }
   damagedInARow_ = 0;
+  if (!(header.timeSec > 0) && !isWithoutTimes_)
+  {
+    isWithoutTimes_ = true;
+    setState(SourceState::Streaming,
+      "connected to " + name() + "; " + header.type + " '" + header.device + "' has no time: that of its arrival is taken");
+  }
+  const double timeSec = header.timeSec > 0 ? header.timeSec : systemTimeSec();
   for (DeviceSample& sample : message.samples)
   {
+    sample.timeSec = timeSec;
     deliver(std::move(sample));
   }
 }

@@ -169,12 +169,27 @@ void parseTransform(const MessageHeader& header, const Content& content, ParsedM
   addPose(header, content, header.device, poseFrom(numbers), message);
 }
 
+/// Every element gets the metadata: without limits, one message of a hostile sender would take terabytes.
+constexpr std::size_t MostElements = 1000, MostMetadataBytes = std::size_t(64) << 10;
+
 template<typename Element, typename Convert, typename ToPose>
 void parseElements(const MessageHeader& header, const Content& content, Convert convert, ToPose toPose, ParsedMessage& message)
 {
   if (content.count % sizeof(Element) != 0)
   {
     message.problem = sizeProblem(header, content.count, "a multiple of " + std::to_string(sizeof(Element)));
+    return;
+  }
+  std::size_t metadataBytes = 0;
+  for (const auto& [key, value] : content.metadata)
+  {
+    metadataBytes += key.size() + value.size();
+  }
+  if (content.count / sizeof(Element) > MostElements || metadataBytes > MostMetadataBytes)
+  {
+    message.problem = header.type + " '" + header.device + "' has " + std::to_string(content.count / sizeof(Element)) +
+      " tools and " + std::to_string(metadataBytes) + " bytes of metadata; at most " + std::to_string(MostElements) + " and " +
+      std::to_string(MostMetadataBytes) + " are taken";
     return;
   }
   for (std::size_t at = 0; at < content.count; at += sizeof(Element))

@@ -79,7 +79,7 @@ void Source::runThread()
     }
     catch (const std::exception& error)
     {
-      setState(SourceState::Connecting, error.what());
+      setProblem(error.what());
     }
     if (status().state != SourceState::Finished && !sleepFor(RetrySec))
     {
@@ -102,6 +102,13 @@ void Source::setState(SourceState state, const std::string& message)
   status_.message = message;
 }
 
+void Source::setProblem(const std::string& message)
+{
+  const std::lock_guard lock(mutex_);
+  status_.state = SourceState::Connecting;
+  status_.message = status_.lastProblem = message;
+}
+
 void Source::countConnection()
 {
   const std::lock_guard lock(mutex_);
@@ -113,6 +120,7 @@ void Source::countRefused(const std::string& message)
   const std::lock_guard lock(mutex_);
   ++status_.refusedCount;
   status_.message = message;
+  status_.lastProblem = message;
 }
 
 bool Source::deliver(DeviceSample sample)

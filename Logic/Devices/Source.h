@@ -39,6 +39,7 @@ struct SourceStatus
 {
   SourceState state = SourceState::Stopped;
   std::string message;                ///< for a person: what it does, or what went wrong last
+  std::string lastProblem;            ///< what went wrong last; stays when it has gone on
   std::uint64_t connectionCount = 0;  ///< how often it was connected; more than once: it came back
   std::uint64_t refusedCount = 0;     ///< messages that were damaged or made no sense
   std::uint64_t droppedCount = 0;     ///< samples that gave way because nobody took them
@@ -82,6 +83,8 @@ protected:
   /// @return false if it was woken by stop()
   bool sleepFor(double seconds);
 
+  /// Connecting again, and why: the message, and the last problem.
+  void setProblem(const std::string& message);
   void setState(SourceState state, const std::string& message);
   void countConnection();
   void countRefused(const std::string& message);

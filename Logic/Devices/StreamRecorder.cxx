@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StreamRecorder.h"
 
+#include "NumberText.h"
+
 #include <exception>
+#include <stdexcept>
+#include <utility>
 
 namespace handeye::devices
 {
@@ -12,61 +16,92 @@ io::SequenceTransform toSequenceTransform(const Eigen::Isometry3d& transform, bo
   return { transform.matrix(), isValid ? "OK" : "INVALID" };
 }
 
-StreamRecorder::StreamRecorder(const std::filesystem::path& video, const std::filesystem::path& poses)
+StreamRecorder::StreamRecorder(const std::filesystem::path& video, const std::filesystem::path& poses, double appliedLatencySec)
 {
   if (!video.empty())
   {
-    video_ = std::make_unique<io::SequenceMetafileWriter>(video);
+    io::SequenceMetafileWriterOptions options;
+    options.fields[io::AppliedLatencyField] = io::formatDouble(appliedLatencySec);
+    video_.writer = std::make_unique<io::SequenceMetafileWriter>(video, options);
   }
   if (!poses.empty())
   {
     io::SequenceMetafileWriterOptions options;
     options.transformsOnly = true;
-    poses_ = std::make_unique<io::SequenceMetafileWriter>(poses, options);
+    poses_.writer = std::make_unique<io::SequenceMetafileWriter>(poses, options);
   }
 }
 
 StreamRecorder::~StreamRecorder() = default;
 
-template<typename Write> bool StreamRecorder::attempt(Write write)
+template<typename Write> bool StreamRecorder::attempt(File& file, Write write)
 {
-  if (hasFailed())
+  if (!file.writer || file.hasFailed)
   {
-    return false;
+    return !file.hasFailed;
   }
   try
   {
     write();
-    return true;
+  }
+  catch (const std::invalid_argument& error)
+  {
+    leaveOut(error.what());
   }
   catch (const std::exception& error)
   {
-    error_ = error.what();
-    video_.reset();
-    poses_.reset();
+    fail(file, error.what());
+  }
+  return !file.hasFailed;
+}
+
+void StreamRecorder::fail(File& file, const std::string& error)
+{
+  file.hasFailed = true;
+  error_ += (error_.empty() ? "" : "; ") + error;
+}
+
+void StreamRecorder::leaveOut(const std::string& reason)
+{
+  ++leftOutCount_;
+  leftOutReason_ = leftOutReason_.empty() ? reason : leftOutReason_;
+}
+
+/// @return false where the tool's name cannot be a field, or is there already
+bool StreamRecorder::addTransform(io::SequenceFrame& fields, const std::string& name, const io::SequenceTransform& transform)
+{
+  constexpr std::size_t MostNames = 1000;
+  const std::string key = io::withoutTransformSuffix(name);
+  const bool isTwice = key != name && leftOutTools_.count(name) == 0 && fields.transforms.count(key) > 0;
+  if (key.empty() || key.find_first_of(" \t\r\n=") != std::string::npos || isTwice || leftOutTools_.count(name) > 0)
+  {
+    if (leftOutTools_.size() < MostNames && leftOutTools_.insert(name).second)
+    {
+      leaveOut("the tool " + io::inQuotes(name) + " cannot be recorded: its name has blanks or '=', or is there twice");
+    }
     return false;
   }
+  fields.transforms[key] = transform;
+  return true;
 }
 
 bool StreamRecorder::add(const PairedFrame& frame)
 {
-  return attempt(
+  return attempt(video_,
     [&]
     {
-      if (!video_)
-      {
-        return;
-      }
       io::SequenceFrame fields;
       fields.timestampSec = frame.image.timeSec;
       fields.unfilteredTimestampSec = frame.image.timeSec;
       fields.frameNumber = frameCount_;
       for (const auto& [name, pose] : frame.poses)
       {
-        fields.transforms[name] = toSequenceTransform(pose.transform, pose.isUsable());
-        fields.fields[name + "PairingStatus"] = toString(pose.status);
+        if (addTransform(fields, name, toSequenceTransform(pose.transform, pose.isUsable())))
+        {
+          fields.fields[name + "PairingStatus"] = toString(pose.status);
+        }
       }
-      video_->append(fields, frame.image.frame()->image);
+      video_.writer->append(fields, frame.image.frame()->image);
       ++frameCount_;
     });
 }
@@ -74,10 +109,10 @@ bool StreamRecorder::add(const PairedFrame& frame)
 bool StreamRecorder::add(const DeviceSample& sample)
 {
   const TrackedPose* pose = sample.pose();
-  return attempt(
+  return attempt(poses_,
     [&]
     {
-      if (!poses_ || pose == nullptr)
+      if (pose == nullptr)
       {
         return;
       }
@@ -86,8 +121,7 @@ bool StreamRecorder::add(const DeviceSample& sample)
         flushPoses();
       }
       pending_.timestampSec = pending_.unfilteredTimestampSec = sample.timeSec;
-      pending_.transforms[sample.name] = toSequenceTransform(pose->transform, pose->isValid);
-      ++poseCount_;
+      poseCount_ += addTransform(pending_, sample.name, toSequenceTransform(pose->transform, pose->isValid)) ? 1 : 0;
     });
 }
 
@@ -95,26 +129,30 @@ void StreamRecorder::flushPoses()
 {
   if (pending_.timestampSec)
   {
-    poses_->append(pending_);
-    pending_ = {};
+    const io::SequenceFrame frame = std::exchange(pending_, {});
+    poses_.writer->append(frame);
   }
 }
 
 bool StreamRecorder::close()
 {
-  return attempt(
-    [&]
+  attempt(poses_, [&] { flushPoses(); });
+  for (File* file : { &video_, &poses_ })
+  {
+    try
     {
-      if (poses_)
+      if (file->writer)
       {
-        flushPoses();
-        poses_->close();
+        file->writer->close();
       }
-      if (video_)
-      {
-        video_->close();
-      }
-    });
+    }
+    catch (const std::exception& error)
+    {
+      fail(*file, error.what());
+    }
+    file->writer.reset();
+  }
+  return !hasFailed();
 }
 
 }  // namespace handeye::devices

@@ -4,9 +4,11 @@
 
 #include "FileError.h"
 #include "ImageFile.h"
+#include "NumberText.h"
 #include "RecordingFolder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace handeye::io
@@ -41,6 +43,7 @@ Recording Recording::open(const std::filesystem::path& path)
   Recording recording;
   recording.path_ = path;
   recording.metafile_ = SequenceMetafile::open(path);
+  recording.readAppliedLatency();
   recording.frameCount_ = recording.metafile_->frameCount();
   recording.warnings_ = recording.metafile_->warnings();
   const std::filesystem::path folder = std::filesystem::absolute(path, error).parent_path();
@@ -85,6 +88,7 @@ Recording Recording::openFolder(const std::filesystem::path& folder, bool needsT
   }
 
   recording.metafile_ = SequenceMetafile::open(trackingPath);
+  recording.readAppliedLatency();
   const std::vector<std::string>& warnings = recording.metafile_->warnings();
   recording.warnings_.insert(recording.warnings_.end(), warnings.begin(), warnings.end());
   const int trackedCount = recording.metafile_->frameCount();
@@ -97,6 +101,22 @@ Recording Recording::openFolder(const std::filesystem::path& folder, bool needsT
     recording.frameCount_ = std::min(recording.frameCount_, trackedCount);
   }
   return recording;
+}
+
+void Recording::readAppliedLatency()
+{
+  const auto field = metafile_->fields().find(AppliedLatencyField);
+  if (field == metafile_->fields().end())
+  {
+    return;
+  }
+  const std::optional<double> seconds = parseDouble(field->second);
+  if (!seconds || !(std::abs(*seconds) <= 10))
+  {
+    throw FileError(metafile_->path(),
+      std::string("'") + AppliedLatencyField + "' is " + inQuotes(field->second) + "; a time of at most 10 s was expected");
+  }
+  appliedLatencySec_ = *seconds;
 }
 
 bool Recording::hasImages() const

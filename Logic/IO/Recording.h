@@ -61,6 +61,10 @@ public:
   /// When the frame was recorded; empty where the file does not say.
   std::optional<double> timestampSec(int frame) const;
 
+  /// The latency that the poses of the frames have been taken at already (the field AppliedLatencySec, which our recorder and session
+  /// write); 0 where the file does not say.
+  double appliedLatencySec() const { return appliedLatencySec_; }
+
   /// The image as recorded, in rows from the top: 8 or 16 bits; grey, BGR or BGRA (OpenCV's order).
   /// @throws FileError where it is missing or damaged; std::out_of_range for a frame that there is not
   cv::Mat image(int frame) const;
@@ -72,9 +76,11 @@ private:
   Recording() = default;
   static Recording openFolder(const std::filesystem::path& folder, bool needsTracking);
   void checkFrame(int frame) const;
+  void readAppliedLatency();
 
   std::filesystem::path path_;
   int frameCount_ = 0;
+  double appliedLatencySec_ = 0;
   std::optional<SequenceMetafile> metafile_;  ///< empty for a folder of pictures without tracking
   bool isFolder_ = false;
   std::map<int, std::filesystem::path> imageFiles_;  ///< by frame; of a folder

@@ -5,6 +5,7 @@
 #include "AtomicFile.h"
 #include "FileError.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <new>
@@ -59,21 +60,30 @@ void ScratchFile::write(const void* bytes, std::size_t count)
   {
     throw FileError(path_, "the temporary file beside it cannot be written (" + std::generic_category().message(errno) + ")");
   }
+  written_ += count;
+}
+
+void ScratchFile::mark()
+{
+  if (std::fflush(file_.get()) != 0)
+  {
+    throw FileError(path_, "the temporary file beside it cannot be written (" + std::generic_category().message(errno) + ")");
+  }
+  marked_ = written_;
 }
 
 void ScratchFile::copyTo(AtomicFile& file)
 {
   std::string buffer(1 << 18, '\0');
-  std::size_t count = 0;
-  const bool isRewound = std::fflush(file_.get()) == 0 && std::fseek(file_.get(), 0, SEEK_SET) == 0;
-  while (isRewound && (count = std::fread(buffer.data(), 1, buffer.size(), file_.get())) > 0)
+  for (std::size_t at = 0; at < marked_;)
   {
-    file.write(buffer.data(), count);
-  }
-  if (!isRewound || std::ferror(file_.get()))
-  {
-    throw FileError(
-      path_, "the temporary file beside it cannot be written or read back (" + std::generic_category().message(errno) + ")");
+    const ssize_t count = pread(fileno(file_.get()), buffer.data(), std::min(buffer.size(), marked_ - at), off_t(at));
+    if (count <= 0)
+    {
+      throw FileError(path_, "the temporary file beside it cannot be read back (" + std::generic_category().message(errno) + ")");
+    }
+    file.write(buffer.data(), std::size_t(count));
+    at += std::size_t(count);
   }
 }
 

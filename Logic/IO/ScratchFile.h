@@ -28,12 +28,16 @@ public:
 
   void write(const void* bytes, std::size_t count);
 
-  /// Appends everything written so far to another file.
+  /// What has been written so far is whole; on the disk as far as there is room. @throws FileError where there is none
+  void mark();
+
+  /// Appends everything up to the last mark to another file, also after a write that failed.
   void copyTo(AtomicFile& file);
 
 private:
   std::filesystem::path path_;  ///< of the target, for messages
   FileHandle file_;
+  std::size_t written_ = 0, marked_ = 0;  ///< bytes
 };
 
 }  // namespace handeye::io

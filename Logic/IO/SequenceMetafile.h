@@ -20,6 +20,9 @@ namespace handeye::io
 class SequencePixels;
 struct SequenceHeader;
 
+/// The field of a file whose poses have been taken at the images' times plus a latency: by how much, s.
+constexpr const char* AppliedLatencyField = "AppliedLatencySec";
+
 /// One transform of one frame as the file has it.
 struct SequenceTransform
 {

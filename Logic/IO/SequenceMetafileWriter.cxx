@@ -165,6 +165,10 @@ void SequenceMetafileWriter::append(const SequenceFrame& frame, const cv::Mat& i
   {
     throw std::invalid_argument("sequence metafile: a frame was added after close()");
   }
+  if (hasFailed_)
+  {
+    throw FileError(path_, "no more frames are taken after one that could not be written");
+  }
   if (!image.empty() && options_.transformsOnly)
   {
     throw std::invalid_argument("sequence metafile: an image was given for a file with transforms only");
@@ -179,6 +183,26 @@ void SequenceMetafileWriter::append(const SequenceFrame& frame, const cv::Mat& i
     throw std::invalid_argument("sequence metafile: all images must have the size and type of the first one");
   }
 
+  const auto sizeBefore = pixels_->size;
+  const int typeBefore = pixels_->type, blanksBefore = pixels_->blanksBefore;
+  try
+  {
+    write(frame, image);
+  }
+  catch (const FileError&)
+  {
+    hasFailed_ = true;
+    pixels_->size = sizeBefore;
+    pixels_->type = typeBefore;
+    pixels_->blanksBefore = blanksBefore;
+    throw;
+  }
+  ++frameCount_;
+}
+
+void SequenceMetafileWriter::write(const SequenceFrame& frame, const cv::Mat& image)
+{
+  const bool isFirstImage = pixels_->size.empty();
   appendHeader(frame, !image.empty());
   if (!image.empty() && isFirstImage)
   {
@@ -201,7 +225,8 @@ void SequenceMetafileWriter::append(const SequenceFrame& frame, const cv::Mat& i
   {
     pixels_->writeBlank();
   }
-  ++frameCount_;
+  pixels_->scratch.mark();
+  pixels_->fields.mark();
 }
 
 void SequenceMetafileWriter::appendHeader(const SequenceFrame& frame, bool hasImage)
@@ -286,8 +311,13 @@ void SequenceMetafileWriter::close()
   const bool hasImages = !pixels_->size.empty();
   if (pixels_->stream && hasImages)
   {
+    if (hasFailed_)
+    {
+      throw FileError(path_, "a frame could not be written, and compressed pixels cannot be cut there");
+    }
     pixels_->stream->avail_in = 0;
     pixels_->deflateAll(Z_FINISH);
+    pixels_->scratch.mark();
   }
   AtomicFile file(path_);
   file.write(fileHeader());

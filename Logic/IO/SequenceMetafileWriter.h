@@ -45,7 +45,8 @@ public:
   /// @param frame its fields; names must not hold blanks, '=' or line ends, values no line ends
   /// @param image 8 or 16 bits, 1, 3 or 4 channels, the same size and type in every frame. An empty one is written in black with
   ///   ImageStatus INVALID.
-  /// @throws std::invalid_argument for other input, FileError where it cannot be written
+  /// @throws std::invalid_argument for other input: the frame is not taken, the next one can be. FileError where it cannot be written
+  ///   (disk full): no more frames are taken then, and close() still makes a file of those before
   void append(const SequenceFrame& frame, const cv::Mat& image = {});
 
   /// Finishes the file. @throws FileError where it cannot be written; nothing is left behind then
@@ -54,6 +55,7 @@ public:
 private:
   struct Pixels;
 
+  void write(const SequenceFrame& frame, const cv::Mat& image);
   void appendHeader(const SequenceFrame& frame, bool hasImage);
   std::string fileHeader() const;
 
@@ -61,7 +63,7 @@ private:
   SequenceMetafileWriterOptions options_;
   int frameCount_ = 0;
   std::unique_ptr<Pixels> pixels_;
-  bool isClosed_ = false;
+  bool isClosed_ = false, hasFailed_ = false;
 };
 
 }  // namespace handeye::io

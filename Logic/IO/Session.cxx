@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace handeye::io
@@ -67,6 +68,56 @@ bool isTemporary(const Path& file)
   return name.rfind(".handeye-", 0) == 0 && file.extension() == ".tmp";
 }
 
+/// Whatever could not be written, or not be read again.
+void checkSample(const SessionSample& sample)
+{
+  if (!std::isfinite(sample.timeSec))
+  {
+    throw std::invalid_argument("a session's sample: its time is not finite");
+  }
+  for (const auto& [name, transform] : sample.transforms)
+  {
+    const bool isName = !name.empty() && name.find_first_of(" \t\r\n=") == std::string::npos &&
+      (withoutTransformSuffix(name) == name || sample.transforms.count(withoutTransformSuffix(name)) == 0);
+    if (!isName || transform.status.find_first_of("\r\n") != std::string::npos ||
+      (transform.matrix && !transform.matrix->allFinite()))
+    {
+      throw std::invalid_argument("a session's sample: the transform " + inQuotes(name) +
+        " is not finite, or its name or status cannot be written (blanks, '=', line ends, or there twice)");
+    }
+  }
+  try
+  {
+    (void)toJson(StoredSample{ sample, 0, 0 }).dump();
+  }
+  catch (const Json::exception& error)
+  {
+    throw std::invalid_argument(std::string("a session's sample cannot be written (") + error.what() + ")");
+  }
+}
+
+/// 0 where a sample does not say.
+double latencyOf(const SessionSample& sample)
+{
+  const Json value = sample.pairing.is_object() ? sample.pairing.value("latencySec", Json()) : Json();
+  return value.is_number() ? value.get<double>() : 0;
+}
+
+/// Whether a folder is empty, or has no more than what a session leaves that was killed while it was being made: its lock, and what
+/// has nothing in it.
+bool isBegun(const Path& folder)
+{
+  const std::vector<Path> files = filesOf(folder);
+  const auto isOurs = [](const Path& file)
+  {
+    const std::string name = file.filename().string();
+    const bool isPart = name == "frames" || name == "samples" || name == "documents";
+    return name == ".lock" || name == "tracking.igs.mha" || isTemporary(file) ||
+      (isPart && std::filesystem::is_directory(file) && std::filesystem::is_empty(file));
+  };
+  return files.empty() || (std::filesystem::exists(folder / ".lock") && std::all_of(files.begin(), files.end(), isOurs));
+}
+
 bool isDocumentName(const std::string& name)
 {
   const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
@@ -110,7 +161,7 @@ Session::~Session() = default;
 Session Session::create(const Path& folder)
 {
   makeFolder(folder);
-  if (!std::filesystem::is_empty(folder))
+  if (!isBegun(folder))
   {
     throw FileError(folder, "the folder is not empty; a session is made in an empty or new one");
   }
@@ -227,10 +278,16 @@ void Session::readSample(const Path& path, int id)
 
 int Session::addSample(const cv::Mat& image, SessionSample sample)
 {
+  checkSample(sample);
   std::vector<std::uint8_t> png;
   if (image.empty() || !cv::imencode(".png", image, png, { cv::IMWRITE_PNG_COMPRESSION, 1 }))
   {
     throw std::invalid_argument("an image of 8 or 16 bits is expected for a session's sample");
+  }
+  if (const std::optional<double> latency = latencySec(); latency && *latency != latencyOf(sample))
+  {
+    throw std::invalid_argument("the session's samples have a latency of " + formatDouble(1000 * *latency) + " ms, this one of " +
+      formatDouble(1000 * latencyOf(sample)) + " ms: all have the same, or a new session is begun");
   }
   sample.id = nextId_;
   const Path imagePath = folder_ / "frames" / (frameDigits(sample.id) + ".png");
@@ -240,7 +297,7 @@ int Session::addSample(const cv::Mat& image, SessionSample sample)
   {
     writeSample(sample, stored.bytes, stored.crc);
   }
-  catch (const FileError&)
+  catch (...)
   {
     std::error_code ignored;
     std::filesystem::remove(imagePath, ignored);
@@ -275,7 +332,7 @@ void Session::refreshTracking()
   {
     writeTracking();
   }
-  catch (const FileError& error)
+  catch (const std::exception& error)
   {
     problems_.push_back(error.what());
   }
@@ -285,6 +342,7 @@ void Session::writeTracking()
 {
   SequenceMetafileWriterOptions options;
   options.transformsOnly = true;
+  options.fields[AppliedLatencyField] = formatDouble(latencySec().value_or(0));
   SequenceMetafileWriter writer(folder_ / "tracking.igs.mha", options);
   for (int id = 0; id < nextId_; ++id)
   {
@@ -328,6 +386,11 @@ std::vector<std::string> Session::documentNames() const
     names.push_back(document.first);
   }
   return names;
+}
+
+std::optional<double> Session::latencySec() const
+{
+  return samples_.empty() ? std::nullopt : std::optional<double>(latencyOf(samples_.begin()->second));
 }
 
 cv::Mat Session::image(int id) const

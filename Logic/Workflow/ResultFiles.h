@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace handeye
@@ -36,6 +37,10 @@ Eigen::Vector3d readStylusTip(const std::filesystem::path& path);
 /// The tip's covariance (mm^2) of a stylus.json, zero where the file does not hold it. @throws io::FileError where it is none
 Eigen::Matrix3d readStylusTipCovariance(const std::filesystem::path& path);
 
+/// stylusTipToStylus of a stylus.json (p_Stylus = stylusTipToStylus * p_StylusTip, mm): with the shaft's direction where `handeye spin` has
+/// added it, nothing otherwise. @throws io::FileError naming the key
+std::optional<Eigen::Isometry3d> readStylusTipFrame(const std::filesystem::path& path);
+
 /// All of a stylus.json, to be written again with more in it. @throws io::FileError as readStylusTip()
 nlohmann::json readStylus(const std::filesystem::path& path);
 
@@ -51,6 +56,9 @@ struct StoredCalibration
 
 /// @throws io::FileError naming the key; also where the file's status is not "ok"
 StoredCalibration readCalibration(const std::filesystem::path& path);
+
+/// markerToRightCamera of a stereo rig's calibration.json; nothing where it has one camera. @throws io::FileError naming the key
+std::optional<Eigen::Isometry3d> readMarkerToRightCamera(const std::filesystem::path& path);
 
 /// modelToPhantom of a phantom.json. @throws io::FileError naming the key; also where the file's status is not "ok"
 Eigen::Isometry3d readPhantomRegistration(const std::filesystem::path& path);

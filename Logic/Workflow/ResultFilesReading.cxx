@@ -139,6 +139,18 @@ Eigen::Matrix3d readStylusTipCovariance(const Path& path)
   return covariance;
 }
 
+std::optional<Eigen::Isometry3d> readStylusTipFrame(const Path& path)
+{
+  const json object = readResult(path, "tip_Stylus_Mm");
+  return object.contains("stylusTipToStylus") ? std::optional(readTransform(path, object, "stylusTipToStylus")) : std::nullopt;
+}
+
+std::optional<Eigen::Isometry3d> readMarkerToRightCamera(const Path& path)
+{
+  const json object = readResult(path, "markerToCamera");
+  return object.contains("markerToRightCamera") ? std::optional(readTransform(path, object, "markerToRightCamera")) : std::nullopt;
+}
+
 json readStylus(const Path& path)
 {
   return readResult(path, "tip_Stylus_Mm");

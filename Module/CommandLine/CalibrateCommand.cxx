@@ -9,6 +9,7 @@
 #include "ResultFiles.h"
 #include "SecondLook.h"
 #include "TextTables.h"
+#include "TimedPose.h"
 
 #include <cmath>
 #include <memory>
@@ -51,6 +52,7 @@ Eye readEye(const CalibrateArguments& arguments, const std::string& recordingPat
   io::Recording recording = io::Recording::open(recordingPath);
   arguments.output.warn(file.warnings);
   arguments.output.warn(recording.warnings());
+  arguments.output.warn(latencyNotes(recording, arguments.tools.latencySec));
   const CameraModel camera = cameraForRecording(file.camera, recording);
   const BallDetectionOptions ball = arguments.ball.forRecording(recording, arguments.output);
   std::vector<CapturedFrame> frames = readCapture(recording, arguments.tools, camera, tip_Stylus, arguments.ballRadiusMm, ball,
@@ -151,6 +153,10 @@ int runCalibrate(CalibrateArguments& arguments)
   const Eigen::Vector3d tip_Stylus = readStylusTip(arguments.stylus);
   const bool isStereo = !arguments.rightRecording.empty();
   Eye left = readEye(arguments, arguments.recording, arguments.camera, tip_Stylus, isStereo ? " (left)" : "");
+  if (arguments.tools.latencySec == 0)
+  {
+    arguments.tools.latencySec = left.recording.appliedLatencySec();  // so that validate and overlay have it
+  }
   std::optional<Eye> right;
   std::optional<Eigen::Isometry3d> leftToRight;
   if (isStereo)

@@ -54,7 +54,7 @@ public:
       }
       problem = step.status == devices::LiveCapture::Step::Status::Moving ? "" : step.message;
     }
-    catch (const io::FileError& error)
+    catch (const std::exception& error)
     {
       problem = error.what();
     }
@@ -80,20 +80,27 @@ class RecordingBeside
 {
 public:
   RecordingBeside(const CaptureArguments& arguments, const CommandOutput& output)
-    : recorder_(arguments.record, arguments.poses)
+    : recorder_(arguments.record, arguments.poses, arguments.sources.pairing.latencySec)
     , output_(output)
   {
   }
 
   template<typename Sample> void add(const Sample& sample) { warnIf(!recorder_.add(sample)); }
-  void close() { warnIf(!recorder_.close()); }
+  void close()
+  {
+    warnIf(!recorder_.close());
+    if (recorder_.leftOutCount() > 0)
+    {
+      output_.warn({ std::to_string(recorder_.leftOutCount()) + " were left out, the first: " + recorder_.leftOutReason() });
+    }
+  }
 
 private:
   void warnIf(bool hasFailed)
   {
     if (hasFailed && !isSaid_)
     {
-      output_.warn({ "the recording has ended, the capture goes on: " + recorder_.error() });
+      output_.warn({ "the recording has ended with what it has so far, the capture goes on: " + recorder_.error() });
       isSaid_ = true;
     }
   }
@@ -108,6 +115,13 @@ int runCapture(CaptureArguments& arguments)
   const io::CameraFile camera = io::readCameraFile(arguments.camera);
   const Eigen::Vector3d tip_Stylus = readStylusTip(arguments.stylus);
   io::Session session = io::Session::openOrCreate(arguments.session);
+  const double latencySec = arguments.sources.pairing.latencySec;
+  if (session.latencySec().value_or(latencySec) != latencySec)
+  {
+    throw io::FileError(arguments.session,
+      format("its samples have a latency of %.1f ms and --latency is %.1f ms; all have the same, or a new session is begun",
+        1000 * *session.latencySec(), 1000 * latencySec));
+  }
   arguments.output.warn(camera.warnings);
   arguments.output.warn(session.problems());
   devices::LiveCapture capture(camera.camera, tip_Stylus, session, arguments.options);
@@ -128,6 +142,7 @@ int runCapture(CaptureArguments& arguments)
     {
       recording.add(*sample);
       pairing.add(std::move(*sample));
+      arguments.sources.warnOfOtherImages(pairing, arguments.output);
     }
     for (std::optional<devices::PairedFrame> frame; !isDone() && (frame = pairing.take());)
     {

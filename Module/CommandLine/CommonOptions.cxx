@@ -111,7 +111,10 @@ void addPivotMethodOption(CLI::App& command, PivotMethod& method)
     "How the tip is found: robustly, or by a classical method that takes all poses");
 }
 
-void addLatencyOption(CLI::App& command, double& latencySec)
+namespace
+{
+
+template<typename Seconds> void addLatency(CLI::App& command, Seconds& latencySec)
 {
   const auto store = [&latencySec](const double& latencyMs) { latencySec = latencyMs / 1000; };
   command
@@ -119,6 +122,27 @@ void addLatencyOption(CLI::App& command, double& latencySec)
       "--latency", store, "The poses of an image are those at its time plus this, ms; see `handeye latency`")
     ->check(CLI::Range(-10000.0, 10000.0))
     ->type_name("MS");
+}
+
+}  // namespace
+
+void addLatencyOption(CLI::App& command, double& latencySec)
+{
+  addLatency(command, latencySec);
+}
+
+void addLatencyOption(CLI::App& command, std::optional<double>& latencySec)
+{
+  addLatency(command, latencySec);
+}
+
+double chooseLatency(const std::optional<double>& asked, double ofCalibrationSec, const CommandOutput& output)
+{
+  if (asked && ofCalibrationSec != 0 && std::abs(*asked - ofCalibrationSec) > 1e-6)
+  {
+    output.warn({ format("--latency %.1f is taken instead of the calibration's %.1f ms", 1000 * *asked, 1000 * ofCalibrationSec) });
+  }
+  return asked.value_or(ofCalibrationSec);
 }
 
 void addCalibrationOption(CLI::App& command, std::string& calibration)

@@ -3,11 +3,13 @@
 #pragma once
 
 #include "BallDetection.h"
+#include "CommandOutput.h"
 #include "PivotCalibration.h"
 #include "PointLineRegistration.h"
 
 #include <CLI/CLI.hpp>
 
+#include <optional>
 #include <string>
 
 namespace handeye::cli
@@ -25,6 +27,12 @@ void addSigmaOption(CLI::App& command, const std::string& option, double& sigma,
 void addPivotMethodOption(CLI::App& command, PivotMethod& method);
 /// `--latency MS`, in milliseconds; `latencySec` is in seconds.
 void addLatencyOption(CLI::App& command, double& latencySec);
+
+/// The same where a calibration has one of its own: nothing unless it is given.
+void addLatencyOption(CLI::App& command, std::optional<double>& latencySec);
+
+/// The latency of `--latency`, of the calibration otherwise; a warning where they differ.
+double chooseLatency(const std::optional<double>& asked, double ofCalibrationSec, const CommandOutput& output);
 void addCalibrationOption(CLI::App& command, std::string& calibration);
 
 /// @param what "stylus", "camera's marker", ...; an empty `name` is said to be the calibration's

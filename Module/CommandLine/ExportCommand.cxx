@@ -36,12 +36,18 @@ std::string dateNow()
   return text;
 }
 
-/// A figure that a calibration.json carries, where the file is one.
-std::optional<double> figure(const std::string& path, const char* key)
+/// What a JSON file has under a key; null where it is no such file, or has nothing there.
+nlohmann::json entry(const std::string& path, const char* key)
 {
   std::ifstream file(path, std::ios::binary);
   const nlohmann::json object = nlohmann::json::parse(file, nullptr, false);
-  const nlohmann::json value = object.is_object() ? object.value(key, nlohmann::json()) : nlohmann::json();
+  return object.is_object() ? object.value(key, nlohmann::json()) : nlohmann::json();
+}
+
+/// A figure that a calibration.json carries, where the file is one.
+std::optional<double> figure(const std::string& path, const char* key)
+{
+  const nlohmann::json value = entry(path, key);
   return value.is_number() ? std::optional<double>(value.get<double>()) : std::nullopt;
 }
 
@@ -51,10 +57,21 @@ std::vector<io::NamedTransform> fixedTransforms(const ExportArguments& arguments
   const std::string date = dateNow();
   std::vector<io::NamedTransform> transforms = { { "Marker", "Camera", markerToCamera,
     figure(arguments.calibration, "pointToLineRmsMm"), date } };
+  if (!entry(arguments.calibration, "markerToRightCamera").is_null())
+  {
+    transforms.push_back({ "Marker", "RightCamera", *readMarkerToRightCamera(arguments.calibration), std::nullopt, date });
+  }
   if (!arguments.stylus.empty())
   {
     Eigen::Isometry3d stylusTipToStylus = Eigen::Isometry3d::Identity();
     stylusTipToStylus.translation() = readStylusTip(arguments.stylus);
+    const std::optional<Eigen::Isometry3d> known = readStylusTipFrame(arguments.stylus);
+    stylusTipToStylus = known.value_or(stylusTipToStylus);
+    if (!known)
+    {
+      arguments.output.warn({ arguments.stylus +
+        ": the direction of the shaft is not known; StylusTipToStylus has the axes of the marker. `handeye spin` finds it" });
+    }
     transforms.push_back({ "StylusTip", "Stylus", stylusTipToStylus, figure(arguments.stylus, "rmsMm"), date });
   }
   if (!arguments.registration.empty())
@@ -94,6 +111,12 @@ int runExport(ExportArguments& arguments)
   const std::string file = arguments.output.file;
   std::vector<std::filesystem::path> written = { file };
   const std::vector<io::NamedTransform> transforms = fixedTransforms(arguments, *camera.markerToCamera);
+  const bool isOneCamera = arguments.format != "plus" && arguments.format != "mrml";
+  if (isOneCamera && !entry(arguments.calibration, "markerToRightCamera").is_null())
+  {
+    arguments.output.warn({ "a file of the format " + arguments.format +
+      " has one camera: the left one is written; the right one is left out (plus and mrml take both)" });
+  }
   if (arguments.format == "plus")
   {
     io::writePlusConfiguration(file, transforms);

@@ -51,6 +51,11 @@ int runLatency(const LatencyArguments& arguments)
   const io::Recording poses = io::Recording::open(arguments.poses.empty() ? arguments.recording : arguments.poses);
   arguments.output.warn(file.warnings);
   arguments.output.warn(recording.warnings());
+  if (arguments.poses.empty() && recording.appliedLatencySec() != 0)
+  {
+    arguments.output.warn({ format("the recording's poses have a latency of %.1f ms already: what is found comes on top of it",
+      1000 * recording.appliedLatencySec()) });
+  }
   const CameraModel camera = cameraForRecording(file.camera, recording);
   std::vector<BallSighting> sightings;
   for (const CapturedFrame& captured : detectBalls(

@@ -10,6 +10,7 @@
 #include "OffscreenRendering.h"
 #include "OverlayPose.h"
 #include "ResultFiles.h"
+#include "TimedPose.h"
 #include "vtkHandEyeOverlayPipeline.h"
 
 #include <opencv2/core.hpp>
@@ -32,6 +33,7 @@ struct OverlayArguments
   std::string recording, calibration, model, registration, folder;
   std::string phantomTransform = "PhantomToTracker";
   std::string markerTransform;
+  std::optional<double> latencySec;
   bool mask = false;
   std::string color;
   double opacity = -1;
@@ -92,8 +94,9 @@ public:
     , transforms_{ stored.markerToCamera, readPhantomRegistration(arguments.registration) }
     , camera_(cameraForRecording(stored.camera, recording))
     , markerTransform_(arguments.markerTransform.empty() ? stored.tools.markerToTracker : arguments.markerTransform)
-    , latencySec_(stored.tools.latencySec)
+    , latencySec_(chooseLatency(arguments.latencySec, stored.tools.latencySec, arguments.output))
   {
+    arguments.output.warn(latencyNotes(recording, latencySec_));
     recording.requireTransform(arguments.phantomTransform);
     recording.requireTransform(markerTransform_);
     model_ = readMesh(arguments.model);
@@ -211,6 +214,7 @@ void addOverlayCommand(CLI::App& app, int& exitCode)
     ->type_name("phantom.json");
   addTransformOption(*command, "--phantom-transform", arguments->phantomTransform, "phantom's marker");
   addTransformOption(*command, "--marker-transform", arguments->markerTransform, "camera's marker");
+  addLatencyOption(*command, arguments->latencySec);
   command->add_option("--color", arguments->color, "Colour of the model, red green blue; ivory if not given")
     ->check(CLI::Validator(checkColor, std::string()))
     ->type_name("RRGGBB");

@@ -31,7 +31,7 @@ int runRecord(RecordArguments& arguments)
   {
     throw CLI::ValidationError("record", "-o FILE or --poses FILE is expected");
   }
-  devices::StreamRecorder recorder(arguments.output.file, arguments.poses);
+  devices::StreamRecorder recorder(arguments.output.file, arguments.poses, arguments.sources.pairing.latencySec);
   arguments.sources.start();
   catchStopSignals();
   devices::FramePairing pairing(arguments.sources.pairing);
@@ -47,6 +47,7 @@ int runRecord(RecordArguments& arguments)
     {
       recorder.add(*sample);
       pairing.add(std::move(*sample));
+      arguments.sources.warnOfOtherImages(pairing, arguments.output);
     }
     while (!isDone() && record(pairing.take()))
     {
@@ -56,7 +57,12 @@ int runRecord(RecordArguments& arguments)
   {
   }
   arguments.sources.stop();
-  const bool isGood = recorder.close() && recorder.frameCount() + recorder.poseCount() > 0;
+  const bool isWhole = recorder.close();
+  if (recorder.leftOutCount() > 0)
+  {
+    arguments.output.warn({ std::to_string(recorder.leftOutCount()) + " were left out, the first: " + recorder.leftOutReason() });
+  }
+  const bool isGood = isWhole && recorder.frameCount() + recorder.poseCount() > 0;
   nlohmann::json result = { { "schema", "handeye-record/1" }, { "status", isGood ? "ok" : "not_recorded" },
     { "frames", recorder.frameCount() }, { "poses", recorder.poseCount() }, { "sources", arguments.sources.statusJson() } };
   result["message"] = recorder.hasFailed() ? recorder.error()

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SourceOptions.h"
 
+#include "CommonOptions.h"
 #include "OpenIGTLinkClient.h"
 #include "ReplaySource.h"
 #include "VideoSource.h"
@@ -48,14 +49,14 @@ void LiveSources::addTo(CLI::App& command)
   from->add_option("--replay", replay_, "Recording that is played as if it were live")->type_name("RECORDING");
   from->require_option(1, 0);
   command.add_option("--speed", speed_, "Of the replay; 0 for as fast as possible")->check(CLI::NonNegativeNumber);
-  command.add_option("--latency", latencyMs_, "The poses of an image are those at its time plus this, ms; see `handeye latency`")
-    ->type_name("MS");
+  addLatencyOption(command, pairing.latencySec);
+  command.add_option("--image", pairing.imageName, "Which video, where there are several; the first that comes otherwise")
+    ->type_name("NAME");
   command.add_option("--wait", waitSec_, "How long to wait for the sources to come up, s")->capture_default_str()->type_name("SEC");
 }
 
 void LiveSources::start()
 {
-  pairing.latencySec = latencyMs_ / 1000;
   for (const std::string& server : servers_)
   {
     sources_.push_back(std::make_unique<devices::OpenIGTLinkClient>(parseServer(server)));
@@ -113,6 +114,17 @@ std::optional<devices::DeviceSample> LiveSources::pop(double timeoutSec)
     }
   } while (devices::systemTimeSec() < endSec);
   return std::nullopt;
+}
+
+void LiveSources::warnOfOtherImages(const devices::FramePairing& pairs, const CommandOutput& output)
+{
+  for (const std::string& name : pairs.otherImages())
+  {
+    if (saidImages_.insert(name).second)
+    {
+      output.warn({ "images of '" + name + "' are left out: '" + pairs.imageName() + "' is taken; --image NAME chooses" });
+    }
+  }
 }
 
 bool LiveSources::isAlive() const

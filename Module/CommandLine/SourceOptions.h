@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "CommandOutput.h"
 #include "FramePairing.h"
 #include "Source.h"
 
@@ -11,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,9 @@ public:
   /// The next sample of any of them.
   std::optional<devices::DeviceSample> pop(double timeoutSec);
 
+  /// Says, once each, which videos are left out.
+  void warnOfOtherImages(const devices::FramePairing& pairs, const CommandOutput& output);
+
   /// Time of the newest sample since the first one.
   double streamSec() const { return newestSec_ - firstSec_; }
 
@@ -46,9 +51,10 @@ public:
 private:
   std::vector<std::string> servers_;
   std::string video_, replay_;
-  double speed_ = 1, latencyMs_ = 0, waitSec_ = 10;
+  double speed_ = 1, waitSec_ = 10;
   std::vector<std::unique_ptr<devices::Source>> sources_;
   std::map<std::size_t, devices::ClockOffset> offsets_;
+  std::set<std::string> saidImages_;
   std::size_t next_ = 0;
   double startSec_ = 0, firstSec_ = 0, newestSec_ = 0;
   bool hasSample_ = false;

@@ -5,6 +5,7 @@
 #include "Commands.h"
 #include "CommonOptions.h"
 #include "ResultFiles.h"
+#include "TimedPose.h"
 #include "ValidationReport.h"
 #include "ValidationStep.h"
 
@@ -20,6 +21,7 @@ struct ValidateArguments
 {
   std::string recording, calibration, report;
   std::string stylusTransform, markerTransform;
+  std::optional<double> latencySec;
   BallOptions ball;
   CommandOutput output;
 };
@@ -32,6 +34,8 @@ int runValidate(const ValidateArguments& arguments)
   ToolNames tools = stored.tools;
   tools.stylusToTracker = arguments.stylusTransform.empty() ? tools.stylusToTracker : arguments.stylusTransform;
   tools.markerToTracker = arguments.markerTransform.empty() ? tools.markerToTracker : arguments.markerTransform;
+  tools.latencySec = chooseLatency(arguments.latencySec, tools.latencySec, arguments.output);
+  arguments.output.warn(latencyNotes(recording, tools.latencySec));
   const CameraModel camera = cameraForRecording(stored.camera, recording);
   const std::vector<CapturedFrame> frames = readCapture(recording, tools, camera, stored.tip_Stylus, stored.ballRadiusMm,
     arguments.ball.forRecording(recording, arguments.output), arguments.output.progress("looking for the ball, frame"));
@@ -73,6 +77,7 @@ void addValidateCommand(CLI::App& app, int& exitCode)
   arguments->ball.addTo(*command);
   addTransformOption(*command, "--stylus-transform", arguments->stylusTransform, "stylus");
   addTransformOption(*command, "--marker-transform", arguments->markerTransform, "camera's marker");
+  addLatencyOption(*command, arguments->latencySec);
   arguments->output.addTo(*command);
   command->callback([arguments, &exitCode] { exitCode = runValidate(*arguments); });
 }

@@ -22,11 +22,11 @@ DeviceSample poseAt(double timeSec, bool isValid = true, const std::string& name
   return { name, timeSec, timeSec, {}, pose };
 }
 
-DeviceSample imageAt(double timeSec)
+DeviceSample imageAt(double timeSec, const std::string& name = "Video")
 {
   VideoFrame frame;
   frame.image = cv::Mat(2, 2, CV_8UC3, cv::Scalar::all(1));
-  return { "Video", timeSec, timeSec, {}, frame };
+  return { name, timeSec, timeSec, {}, frame };
 }
 
 double xOf(const PairedFrame& frame)
@@ -142,6 +142,32 @@ TEST(FramePairing, OldTimes_AreRefusedAndAClockThatWasSetIsFollowed)
   const std::optional<PairedFrame> frame = pairing.take();
   ASSERT_TRUE(frame);
   EXPECT_NEAR(xOf(*frame), 501, 1e-9);
+}
+
+TEST(FramePairing, SeveralVideos_AreNotMixed)
+{
+  for (const std::string asked : { "", "Endoscope" })
+  {
+    FramePairingOptions options;
+    options.imageName = asked;
+    FramePairing pairing(options);
+    pairing.add(poseAt(1));
+    pairing.add(poseAt(1.09));
+    for (const char* name : { "Room", "Endoscope", "Room", "Endoscope" })
+    {
+      pairing.add(imageAt(1.05, name));
+    }
+    const std::string taken = asked.empty() ? "Room" : "Endoscope", other = asked.empty() ? "Endoscope" : "Room";
+    int count = 0;
+    while (const std::optional<PairedFrame> frame = pairing.takeRest())
+    {
+      EXPECT_EQ(frame->image.name, taken);
+      ++count;
+    }
+    EXPECT_EQ(count, 2);
+    EXPECT_EQ(pairing.imageName(), taken);
+    EXPECT_EQ(pairing.otherImages(), std::set<std::string>({ other }));
+  }
 }
 
 TEST(ClockOffset, TakesTheFastestWay)

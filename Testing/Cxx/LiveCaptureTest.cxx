@@ -85,6 +85,39 @@ TEST(LiveCapture, EachPlaceIsStoredOnce_WhereItIs)
   }
 }
 
+TEST(LiveCapture, ImageOfAnotherSizeOrInGrey_IsSaidAndNotTaken)
+{
+  const TemporaryFolder folder;
+  io::Session session = io::Session::create(folder.path() / "s");
+  const SimulatedRoom room(fivePlaces());
+  std::vector<PairedFrame> frames = framesOf(room, 4, 0);
+  for (const cv::Mat& wrong : { cv::Mat(24, 32, CV_8UC3, cv::Scalar::all(0)),
+         cv::Mat(room.options().camera.height(), room.options().camera.width(), CV_8UC1, cv::Scalar::all(0)) })
+  {
+    LiveCapture capture(room.options().camera, room.options().tip_Stylus, session);
+    int refused = 0;
+    for (PairedFrame& frame : frames)
+    {
+      VideoFrame video;
+      video.image = wrong;
+      frame.image.content = video;
+      refused += capture.add(frame).status == Status::WrongImage ? 1 : 0;
+    }
+    EXPECT_GT(refused, 0);
+  }
+  EXPECT_TRUE(session.samples().empty());
+}
+
+TEST(LiveCapture, LatencyOfThePairing_IsKeptWithTheSample)
+{
+  PairedFrame frame;
+  frame.latencySec = -0.04;
+  EXPECT_EQ(toSessionSample(frame).pairing.at("latencySec"), -0.04);
+  const TemporaryFolder folder;
+  const SimulatedRoom room(fivePlaces());
+  EXPECT_EQ(framesOf(room, 1, -0.04).at(0).latencySec, -0.04);
+}
+
 TEST(LiveCapture, SessionThatIsContinued_KnowsItsPlaces)
 {
   const TemporaryFolder folder;

@@ -8,9 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 
 #include <fstream>
+#include <tuple>
 
 namespace
 {
@@ -22,6 +26,13 @@ OpenIGTLinkClientOptions clientOf(int port)
 {
   OpenIGTLinkClientOptions options;
   options.port = port;
+  return options;
+}
+
+/// For the tests that stop in the middle of a message; in the others a sender may be kept from its work for as long as it takes.
+OpenIGTLinkClientOptions impatientClientOf(int port)
+{
+  OpenIGTLinkClientOptions options = clientOf(port);
   options.stallTimeoutSec = 0.3;
   return options;
 }
@@ -105,7 +116,7 @@ TEST(OpenIGTLinkClient, NoServer_SaysSoAndStopsAtOnce)
   }
   OpenIGTLinkClient client(clientOf(freePort));
   client.start();
-  ASSERT_TRUE(waitUntil([&] { return client.status().message.find("does not answer") != std::string::npos; }));
+  ASSERT_TRUE(waitUntil([&] { return client.status().lastProblem.find("does not answer") != std::string::npos; }));
   EXPECT_EQ(client.status().state, SourceState::Connecting);
   client.stop();
   EXPECT_EQ(client.status().state, SourceState::Stopped);
@@ -122,7 +133,7 @@ TEST(OpenIGTLinkClient, ServerThatVanishes_IsFoundAgain)
   ASSERT_TRUE(popNamed(client, "StylusToTracker"));
   server.reset();
   ASSERT_TRUE(waitUntil([&] { return client.status().state == SourceState::Connecting; }));
-  EXPECT_NE(client.status().message.find("trying again"), std::string::npos);
+  EXPECT_NE(client.status().lastProblem.find("trying again"), std::string::npos);
   OpenIGTLinkServerOptions same = anyPort();
   same.port = port;
   server = std::make_unique<OpenIGTLinkServer>(same);
@@ -148,24 +159,24 @@ TEST(OpenIGTLinkClient, Garbage_EndsTheConnectionAndTheNextIsGood)
 TEST(OpenIGTLinkClient, HalfAHeader_EndsTheConnectionAndTheNextIsGood)
 {
   RawServer server;
-  OpenIGTLinkClient client(clientOf(server.port()));
+  OpenIGTLinkClient client(impatientClientOf(server.port()));
   client.start();
   ASSERT_TRUE(server.acceptClient());
   const Bytes message = pose(1);
   server.send(Bytes(message.begin(), message.begin() + 29));
-  ASSERT_TRUE(waitUntil([&] { return client.status().message.find("middle of a message's header") != std::string::npos; }));
+  ASSERT_TRUE(waitUntil([&] { return client.status().lastProblem.find("middle of a message's header") != std::string::npos; }));
   expectGoodPoseArrives(server, client);
 }
 
 TEST(OpenIGTLinkClient, HalfABody_EndsTheConnectionAndTheNextIsGood)
 {
   RawServer server;
-  OpenIGTLinkClient client(clientOf(server.port()));
+  OpenIGTLinkClient client(impatientClientOf(server.port()));
   client.start();
   ASSERT_TRUE(server.acceptClient());
   const Bytes message = pose(1);
   server.send(Bytes(message.begin(), message.end() - 5));
-  ASSERT_TRUE(waitUntil([&] { return client.status().message.find("middle of a message") != std::string::npos; }));
+  ASSERT_TRUE(waitUntil([&] { return client.status().lastProblem.find("middle of a message") != std::string::npos; }));
   expectGoodPoseArrives(server, client);
 }
 
@@ -190,14 +201,14 @@ TEST(OpenIGTLinkClient, SixteenGigabytes_AreNotTaken)
 TEST(OpenIGTLinkClient, AnnouncedBodyThatNeverComes_TakesLittleMemory)
 {
   RawServer server;
-  OpenIGTLinkClient client(clientOf(server.port()));
+  OpenIGTLinkClient client(impatientClientOf(server.port()));
   client.start();
   ASSERT_TRUE(server.acceptClient());
   Bytes message = pose(1);
   message[46] = 7;  // 7 << 24 bytes: allowed, but only 60 follow
   const std::size_t before = residentBytes();
   server.send(message);
-  ASSERT_TRUE(waitUntil([&] { return client.status().message.find("middle of a message") != std::string::npos; }));
+  ASSERT_TRUE(waitUntil([&] { return client.status().lastProblem.find("middle of a message") != std::string::npos; }));
   EXPECT_LT(residentBytes(), before + (std::size_t(32) << 20));
   expectGoodPoseArrives(server, client);
 }
@@ -219,6 +230,55 @@ TEST(OpenIGTLinkClient, DamagedMessage_IsLeftOutAndTheNextTaken)
   EXPECT_EQ(client.status().connectionCount, 1U);
 }
 
+TEST(OpenIGTLinkClient, SenderWithoutTimes_HasThoseOfArrivalAndAWarning)
+{
+  RawServer server;
+  OpenIGTLinkClient client(clientOf(server.port()));
+  const double beginSec = systemTimeSec();
+  client.start();
+  ASSERT_TRUE(server.acceptClient());
+  server.send(packTransform("StylusToTracker", 0, shiftedBy(1)));
+  server.send(packTransform("StylusToTracker", 0, shiftedBy(2)));
+  const std::optional<DeviceSample> first = popNamed(client, "StylusToTracker");
+  const std::optional<DeviceSample> second = popNamed(client, "StylusToTracker");
+  ASSERT_TRUE(first && second);
+  EXPECT_GE(first->timeSec, beginSec);
+  EXPECT_LE(first->timeSec, second->timeSec);
+  EXPECT_LE(second->timeSec, second->receivedSec);
+  EXPECT_NE(client.status().message.find("'StylusToTracker' has no time"), std::string::npos) << client.status().message;
+}
+
+/// Without them, a machine that lost its power is noticed after two hours.
+TEST(OpenIGTLinkClient, Connections_AskWhetherTheOtherSideIsThere)
+{
+  RawServer server;
+  OpenIGTLinkClient client(clientOf(server.port()));
+  client.start();
+  ASSERT_TRUE(server.acceptClient());
+  int connections = 0;
+  for (int descriptor = 0; descriptor < 256; ++descriptor)
+  {
+    sockaddr_in peer = {};
+    socklen_t size = sizeof(peer);
+    if (getpeername(descriptor, reinterpret_cast<sockaddr*>(&peer), &size) != 0 || peer.sin_family != AF_INET)
+    {
+      continue;
+    }
+    ++connections;
+    int isAlive = 0, idleSec = 0, intervalSec = 0, probes = 0;
+    for (const auto& [level, option, value] :
+      { std::make_tuple(SOL_SOCKET, SO_KEEPALIVE, &isAlive), std::make_tuple(int(IPPROTO_TCP), TCP_KEEPIDLE, &idleSec),
+        std::make_tuple(int(IPPROTO_TCP), TCP_KEEPINTVL, &intervalSec), std::make_tuple(int(IPPROTO_TCP), TCP_KEEPCNT, &probes) })
+    {
+      socklen_t bytes = sizeof(*value);
+      ASSERT_EQ(getsockopt(descriptor, level, option, value, &bytes), 0);
+    }
+    EXPECT_NE(isAlive, 0);
+    EXPECT_LE(idleSec + intervalSec * probes, 10);
+  }
+  EXPECT_EQ(connections, 2) << "the client's end and the server's";
+}
+
 TEST(OpenIGTLinkClient, OnlyDamagedMessages_EndTheConnection)
 {
   RawServer server;
@@ -231,7 +291,7 @@ TEST(OpenIGTLinkClient, OnlyDamagedMessages_EndTheConnection)
   {
     server.send(damaged);
   }
-  ASSERT_TRUE(waitUntil([&] { return client.status().message.find("in a row") != std::string::npos; }));
+  ASSERT_TRUE(waitUntil([&] { return client.status().lastProblem.find("in a row") != std::string::npos; }));
   expectGoodPoseArrives(server, client);
 }
 

@@ -344,6 +344,21 @@ TEST(OpenIGTLinkMessage, RandomBodiesWithGoodChecksums_DoNoHarm)
   }
 }
 
+/// Every tool of a message gets its metadata: many of both would be a sender's way to take all memory.
+TEST(OpenIGTLinkMessage, MoreToolsOrMetadataThanThereAre_AreRefused)
+{
+  constexpr std::size_t ToolBytes = 70;
+  const Metadata much = { { "Note", std::string(70000, 'x') } };
+  EXPECT_EQ(receive(packMessage("TDATA", "Tracker", 1, Bytes(1000 * ToolBytes))).message.samples.size(), 1000U);
+  for (const Bytes& hostile :
+    { packMessage("TDATA", "Tracker", 1, Bytes(1001 * ToolBytes)), packMessage("TDATA", "Tracker", 1, Bytes(ToolBytes), much) })
+  {
+    const Received received = receive(hostile);
+    EXPECT_TRUE(received.message.samples.empty());
+    EXPECT_NE(received.problem.find("are taken"), std::string::npos) << received.problem;
+  }
+}
+
 TEST(OpenIGTLinkMessage, WhatIsNoHeader_IsRefused)
 {
   std::array<std::uint8_t, HeaderBytes> bytes{};

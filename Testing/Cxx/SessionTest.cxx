@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <limits>
 
 namespace
 {
@@ -104,6 +105,22 @@ TEST(Session, IsARecording_WithoutTheExcluded)
   EXPECT_TRUE(Recording::open(folder.path() / "s").transform(1, "StylusToTracker").isUsable());
 }
 
+TEST(Session, LatencyOfItsSamples_IsOneAndThatOfTheRecording)
+{
+  const TemporaryFolder folder;
+  SessionSample sample = sampleOf(0), other = sampleOf(1);
+  sample.pairing["latencySec"] = -0.04;
+  {
+    Session session = Session::create(folder.path() / "s");
+    EXPECT_FALSE(session.latencySec());
+    session.addSample(pictureOf(0), sample);
+    EXPECT_THROW(session.addSample(pictureOf(1), other), std::invalid_argument);
+    EXPECT_EQ(session.samples().size(), 1U);
+  }
+  EXPECT_EQ(Session::open(folder.path() / "s").latencySec(), -0.04);
+  EXPECT_EQ(Recording::open(folder.path() / "s").appliedLatencySec(), -0.04);
+}
+
 TEST(Session, DamagedParts_AreReportedAndTheRestOpened)
 {
   const TemporaryFolder folder;
@@ -149,6 +166,24 @@ TEST(Session, NewerVersion_SecondProgramAndStrangeFolder_AreRefused)
   expectFileError([&] { (void)Session::open(folder.path() / "other"); }, { "session.json" });
 }
 
+TEST(Session, KilledWhileItIsMade_IsMadeTheNextTime)
+{
+  const TemporaryFolder folder;
+  for (const char* file : { "a/.lock", "b/.lock", "b/.handeye-1-1.tmp", "c/.lock", "c/tracking.igs.mha", "foreign/tracking.igs.mha",
+         "used/.lock", "used/frames/0000.png" })
+  {
+    folder.write(file, "x");
+  }
+  std::filesystem::create_directories(folder.path() / "c/frames");
+  for (const char* name : { "a", "b", "c" })
+  {
+    Session session = Session::openOrCreate(folder.path() / name);
+    addSamples(session, 1);
+  }
+  expectFileError([&] { (void)Session::openOrCreate(folder.path() / "foreign"); }, { "not empty" });
+  expectFileError([&] { (void)Session::openOrCreate(folder.path() / "used"); }, { "not empty" });
+}
+
 TEST(Session, FullDisk_RefusesTheSampleAndKeepsTheRest)
 {
   const TemporaryFolder folder;
@@ -182,6 +217,32 @@ TEST(Session, DocumentNames_AreNoPaths)
   EXPECT_THROW(session.setDocument("../stylus", {}), std::invalid_argument);
   EXPECT_THROW(session.setDocument("", {}), std::invalid_argument);
   EXPECT_THROW(session.addSample(cv::Mat(), {}), std::invalid_argument);
+}
+
+TEST(Session, SampleThatCouldNotBeReadAgain_IsRefusedBeforeAnythingIsWritten)
+{
+  const TemporaryFolder folder;
+  Session session = Session::create(folder.path() / "s");
+  addSamples(session, 1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<SessionSample> bad(6, sampleOf(1));
+  bad[0].timeSec = nan;
+  (*bad[1].transforms["StylusToTracker"].matrix)(1, 3) = nan;
+  bad[2].transforms["My NeedleToTracker"] = bad[2].transforms["StylusToTracker"];
+  bad[3].transforms["Stylus\xff"] = bad[3].transforms["StylusToTracker"];
+  bad[4].transforms["StylusToTrackerTransform"] = bad[4].transforms["StylusToTracker"];
+  bad[5].detection["message"] = "\xff";
+  for (std::size_t i = 0; i < bad.size(); ++i)
+  {
+    EXPECT_THROW(session.addSample(pictureOf(1), bad[i]), std::invalid_argument) << i;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "s/frames/0001.png")) << i;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "s/samples/0001.json")) << i;
+  }
+  EXPECT_EQ(session.addSample(pictureOf(1), sampleOf(1)), 1);
+  session = Session::create(folder.path() / "t");
+  const Session again = Session::open(folder.path() / "s");
+  EXPECT_TRUE(again.problems().empty());
+  EXPECT_EQ(again.samples().size(), 2U);
 }
 
 /// A program that adds samples, each with the next content, and announces each number on a pipe, until it is killed.
@@ -229,18 +290,14 @@ TEST(Session, KilledAtAnyMoment_HasAllThatWasAnnounced)
   const std::filesystem::path path = folder.path() / "s";
   Random random(11);
   std::vector<int> announced;
-  constexpr int Rounds = 40;
-  for (int round = 0; round < Rounds; ++round)
+  constexpr int LeastRounds = 40, MostRounds = 400, Enough = 10;
+  int rounds = 0;
+  for (; rounds < LeastRounds || (announced.size() <= Enough && rounds < MostRounds); ++rounds)
   {
     const std::vector<int> now = announcedUntilKilled(path, unsigned(random.uniform(1000, 150000)));
     announced.insert(announced.end(), now.begin(), now.end());
-    if (!std::filesystem::exists(path / "session.json"))
-    {
-      ASSERT_TRUE(announced.empty());
-      std::filesystem::remove_all(path);  // killed while it was being made
-      continue;
-    }
-    const Session session = Session::open(path);
+    ASSERT_TRUE(announced.empty() || std::filesystem::exists(path / "session.json"));
+    const Session session = Session::openOrCreate(path);  // also one that was killed while it was being made
     for (const std::string& problem : session.problems())
     {
       EXPECT_NE(problem.find("not accepted"), std::string::npos) << problem;  // the picture of one that was not announced
@@ -250,9 +307,10 @@ TEST(Session, KilledAtAnyMoment_HasAllThatWasAnnounced)
       ASSERT_EQ(session.samples().count(id), 1U) << id;
     }
   }
-  ASSERT_GT(announced.size(), 10U);  // some hundreds; few on a machine that has other work
+  ASSERT_GT(announced.size(), std::size_t(Enough));  // some hundreds; few on a machine that has other work
   const Session session = Session::open(path);
-  EXPECT_LE(session.samples().size(), announced.size() + Rounds);  // at most one a round was stored and not announced any more
+  EXPECT_LE(
+    session.samples().size(), announced.size() + std::size_t(rounds));  // at most one a round was stored and not announced any more
   int content = 0;
   for (const auto& sample : session.samples())
   {

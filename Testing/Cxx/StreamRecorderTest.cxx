@@ -79,6 +79,17 @@ TEST(StreamRecorder, ReadsBackImagesAndPoses)
   EXPECT_EQ(poses.transform(4, "MarkerToTracker").transform.translation().x(), 104);
 }
 
+TEST(StreamRecorder, LatencyOfThePairing_IsWritten)
+{
+  const TemporaryFolder folder;
+  StreamRecorder recorder(folder.path() / "video.igs.mha", folder.path() / "poses.igs.mha", -0.04);
+  recorder.add(frameAt(0));
+  recorder.add(poseAt(100, "StylusToTracker", true));
+  ASSERT_TRUE(recorder.close()) << recorder.error();
+  EXPECT_EQ(Recording::open(folder.path() / "video.igs.mha").appliedLatencySec(), -0.04);
+  EXPECT_EQ(Recording::open(folder.path() / "poses.igs.mha").appliedLatencySec(), 0) << "these are by their own times";
+}
+
 TEST(StreamRecorder, FullDisk_EndsTheRecordingAndNothingElse)
 {
   const TemporaryFolder folder;
@@ -97,6 +108,56 @@ TEST(StreamRecorder, FullDisk_EndsTheRecordingAndNothingElse)
   EXPECT_NE(recorder.error().find("video.igs.mha"), std::string::npos) << recorder.error();
   EXPECT_FALSE(recorder.add(frameAt(1)));
   EXPECT_EQ(folder.entryCount(), 0U);
+}
+
+TEST(StreamRecorder, AFailure_KeepsWhatWasRecorded)
+{
+  const TemporaryFolder folder;
+  StreamRecorder recorder(folder.path() / "video.igs.mha", folder.path() / "poses.igs.mha");
+  int taken = 0;
+  {
+    const FullDisk full(200000);
+    for (int i = 0; i < 100; ++i)
+    {
+      taken += recorder.add(frameAt(i)) ? 1 : 0;
+    }
+  }
+  ASSERT_LT(taken, 100);
+  EXPECT_TRUE(recorder.add(poseAt(100, "StylusToTracker", true))) << "the other file goes on";
+  EXPECT_FALSE(recorder.close()) << "not all was recorded";
+  const Recording video = Recording::open(folder.path() / "video.igs.mha");
+  ASSERT_EQ(video.frameCount(), taken);
+  EXPECT_EQ(video.image(taken - 1).at<cv::Vec3b>(47, 63)[2], taken - 1);
+  EXPECT_EQ(Recording::open(folder.path() / "poses.igs.mha").frameCount(), 1);
+}
+
+TEST(StreamRecorder, WhatCannotBeWritten_IsLeftOutAndTheRestGoesOn)
+{
+  const TemporaryFolder folder;
+  StreamRecorder recorder(folder.path() / "video.igs.mha", folder.path() / "poses.igs.mha");
+  for (int i = 0; i < 4; ++i)
+  {
+    PairedFrame frame = frameAt(i);
+    frame.poses["My Needle"] = frame.poses["StylusToTracker"];
+    frame.poses["StylusToTrackerTransform"] = frame.poses["StylusToTracker"];
+    if (i == 2)
+    {
+      VideoFrame other;
+      other.image = cv::Mat(10, 10, CV_8UC3, cv::Scalar::all(0));
+      frame.image.content = other;
+    }
+    EXPECT_TRUE(recorder.add(frame));
+    EXPECT_TRUE(recorder.add(poseAt(100 + i, "a=b", true)));
+    EXPECT_TRUE(recorder.add(poseAt(100 + i, "StylusToTracker", true)));
+  }
+  EXPECT_EQ(recorder.leftOutCount(), 4) << "an image and three tools";
+  EXPECT_NE(recorder.leftOutReason().find("My Needle"), std::string::npos) << recorder.leftOutReason();
+  ASSERT_TRUE(recorder.close()) << recorder.error();
+  const Recording video = Recording::open(folder.path() / "video.igs.mha");
+  ASSERT_EQ(video.frameCount(), 3);
+  EXPECT_EQ(video.transformNames(), std::vector<std::string>({ "StylusToTracker" }));
+  EXPECT_EQ(video.image(2).at<cv::Vec3b>(0, 0)[0], 3);
+  EXPECT_EQ(Recording::open(folder.path() / "poses.igs.mha").frameCount(), 4);
 }
 
 TEST(StreamRecorder, FolderThatIsNotThere_IsAFileError)

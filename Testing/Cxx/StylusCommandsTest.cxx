@@ -4,6 +4,7 @@
 // The stylus and the phantom on the command line: pivot by each method, spin, landmarks from a recording.
 #include "CaptureSimulation.h"
 #include "CommandRunner.h"
+#include "NamedTransform.h"
 #include "PivotSimulation.h"
 
 #include <Eigen/Core>
@@ -104,6 +105,38 @@ TEST_F(StylusCommands, Spin_AddsTheTipsFrameToTheStylus)
   EXPECT_EQ(pivot.json()["status"], "rotation_about_one_axis");
   EXPECT_NE(pivot.err.find("its z axis"), std::string::npos) << pivot.err;
   EXPECT_FALSE(std::filesystem::exists(file("tip.json")));
+}
+
+/// What spin adds to the stylus is exported, and what a stereo calibration has of the right eye.
+TEST_F(StylusCommands, Export_HasTheShaftAndBothEyes)
+{
+  const json ones = { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 }, { 0, 0, 0, 1 } };
+  json right = ones, tip = { { 1, 0, 0, 2.4 }, { 0, -1, 0, -3.1 }, { 0, 0, -1, -158 }, { 0, 0, 0, 1 } };
+  right[0][3] = -65;
+  write("spun.json", json({ { "status", "ok" }, { "tip_Stylus_Mm", { 2.4, -3.1, -158 } }, { "stylusTipToStylus", tip } }).dump());
+  json calibration = { { "status", "ok" }, { "markerToCamera", ones }, { "markerToRightCamera", right } };
+  calibration["camera"] = { { "width", 640 }, { "height", 480 }, { "distortionCoefficients", { 0, 0, 0, 0, 0 } },
+    { "cameraMatrix", { { 500, 0, 320 }, { 0, 500, 240 }, { 0, 0, 1 } } } };
+  write("calibration.json", calibration.dump());
+  for (const std::string format : { "plus", "mrml" })
+  {
+    const CommandResult both =
+      run({ "export", file("calibration.json"), "--format", format, "--stylus", file("spun.json"), "-o", file("out") });
+    ASSERT_EQ(both.exitCode, 0) << both.err;
+    EXPECT_EQ(both.err.find("shaft"), std::string::npos) << both.err;
+    EXPECT_NEAR(handeye::io::readTransform(file("out"), "StylusTipToStylus")(2, 2), -1, 1e-9) << format;
+    EXPECT_NEAR(handeye::io::readTransform(file("out"), "StylusTipToStylus")(2, 3), -158, 1e-9) << format;
+    EXPECT_NEAR(handeye::io::readTransform(file("out"), "MarkerToRightCamera")(0, 3), -65, 1e-9) << format;
+    const CommandResult tipOnly =
+      run({ "export", file("calibration.json"), "--format", format, "--stylus", file("stylus.json"), "-o", file("out") });
+    EXPECT_NE(tipOnly.err.find("shaft"), std::string::npos) << tipOnly.err;
+  }
+  for (const std::string format : { "tfm", "opencv" })
+  {
+    const CommandResult left = run({ "export", file("calibration.json"), "--format", format, "-o", file("left.yml") });
+    EXPECT_EQ(left.exitCode, 0) << left.err;
+    EXPECT_NE(left.err.find("the right one is left out"), std::string::npos) << left.err;
+  }
 }
 
 TEST_F(StylusCommands, LandmarksFromRecording_AreEightInOrderWithNothingButFileNames)

@@ -49,9 +49,10 @@ skew = (error[:3, :3] - error[:3, :3].T) / 2
 rotation = np.array([skew[2, 1], skew[0, 2], skew[1, 0]]) * (angle / np.sin(angle) if angle > 1e-12 else 1)
 difference = np.concatenate([rotation, error[:3, 3]])
 covariance = np.array(result["covariance"])
-# Six freedoms together: within 3 sigma is a Mahalanobis distance below 20.06 (the chi-square of 6 freedoms at 99.73 %).
+# Six freedoms together: a Mahalanobis distance below 33.1 is the chi-square of 6 freedoms at 99.999 %. The samples' times depend on the
+# machine, so each run has other ones: 99.73 % (3 sigma) would fail one run in 370.
 distance = difference @ np.linalg.solve(covariance, difference)
 sigma = np.sqrt(np.diag(covariance))
 print(f"samples used {sum(sample['used'] for sample in result['samples'])}; rotation off by {np.rad2deg(angle):.3f} deg, "
       f"translation by {np.linalg.norm(error[:3, 3]):.2f} mm; in sigmas {np.round(difference / sigma, 2)}; chi-square {distance:.1f}")
-assert distance < 20.06, "further from the truth than the predicted uncertainty (3 sigma) allows"
+assert distance < 33.1, "further from the truth than the predicted uncertainty (99.999 %) allows"

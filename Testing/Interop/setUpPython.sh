@@ -12,6 +12,6 @@ if [ -f "$folder/installed.txt" ] && cmp -s "$list" "$folder/installed.txt"; the
 fi
 rm -rf "$folder"
 /usr/bin/python3 -m venv "$folder" || { echo "python3-venv is missing: run ./test.sh, which installs it" >&2; exit 1; }
-"$folder/bin/pip" install --quiet --disable-pip-version-check --retries 5 -r "$list" ||
+"$folder/bin/pip" install --quiet --disable-pip-version-check --retries 5 --no-deps -r "$list" ||
   { echo "pip could not install what $list pins: is there a network connection?" >&2; exit 1; }
 cp "$list" "$folder/installed.txt"
