@@ -126,14 +126,20 @@ double rimFill(const OutlineFit& fit, const BallColorLevels& levels, int level, 
 }
 
 /// The share of the outline across which the colour goes on and no edge was found.
-double continuedShare(
-  const BallColorLevels& levels, int level, const SphereCone::Outline& outline, const OutlineFit& fit, double radiusPx)
+double continuedShare(const BallColorLevels& levels, int level, const SphereCone::Outline& outline, const OutlineFit& fit,
+  const Eigen::Vector2d& center_Image, double radiusPx)
 {
+  // Corners by their angle about the centre in the image.
+  const auto cornerAt = [&](const Eigen::Vector2d& point)
+  {
+    const Eigen::Vector2d arm = point - center_Image;
+    return (std::atan2(arm.y(), arm.x()) / (2 * Pi) + 0.5) * OutlineCorners;
+  };
   const double across = std::clamp(AcrossShare * radiusPx, NearestAcrossPx, FurthestAcrossPx);
   std::vector<char> isSeen(OutlineCorners + 1);
-  for (const double turn : fit.supportTurns)
+  for (const Eigen::Vector2d& edge : fit.support_Image)
   {
-    const double corner = turn / (2 * Pi) * OutlineCorners;
+    const double corner = std::min(cornerAt(edge), double(OutlineCorners - 1));
     isSeen[std::size_t(corner)] = 1;
     isSeen[std::size_t(corner) + 1] = 1;
   }
@@ -143,7 +149,7 @@ double continuedShare(
   {
     const Eigen::Vector2d& point = outline.points_Image[i];
     const Eigen::Vector2d step = across * outline.normals_Image[i];
-    const auto corner = std::size_t(std::lround(outline.turns[i] / (2 * Pi) * OutlineCorners));
+    const auto corner = std::size_t(std::lround(cornerAt(point)));
     const bool goesOn = levels.meets(level, nearestPixel(point - step)) && levels.meets(level, nearestPixel(point + step));
     continued += goesOn && !isSeen[corner] ? 1 : 0;
   }
@@ -172,13 +178,14 @@ BallEvidence judgeOutline(const OutlineFit& fit, const cv::Mat& image, const Bal
     seen.push_back(nearestPixel(point));
   }
   evidence.radiusPx = std::sqrt(cv::contourArea(whole) / Pi);
+  const Eigen::Vector2d center_Image = camera.project(fit.cone.axis_Camera).point_Image;
   const Inside inside = lookInside(image, levels, level, seen);
   const double filled = std::min(1.0, inside.colored + inside.highlights);
-  const double rim = rimFill(fit, levels, level, camera.project(fit.cone.axis_Camera).point_Image);
+  const double rim = rimFill(fit, levels, level, center_Image);
   const bool isBesideFinger = rim >= RimBesideFinger && filled >= LeastBehindFinger && fit.sigmaPx <= SigmaBesideFingerPx &&
     fit.visibleShare >= VisibleBesideFinger && evidence.radiusPx >= RadiusBesideFingerPx;
   evidence.fill = isBesideFinger ? std::max(filled, options.minimumFill) : filled;
-  evidence.continuedShare = continuedShare(levels, level, outline, fit, evidence.radiusPx);
+  evidence.continuedShare = continuedShare(levels, level, outline, fit, center_Image, evidence.radiusPx);
   const bool isWhole = evidence.continuedShare <= LargestContinuedShare * (fit.visibleShare + evidence.continuedShare);
   evidence.isPartOfBall = isWhole && fit.sigmaPx <= largestSigmaPx && evidence.radiusPx >= options.minimumRadiusPx &&
     evidence.fill >= options.minimumFill && inside.colored >= LeastColor &&

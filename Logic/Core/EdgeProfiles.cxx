@@ -31,7 +31,7 @@ constexpr int MatchingRounds = 3;
 bool EdgeSides::isEdge() const
 {
   const double brighter = double(std::max(inside.norm(), outside.norm()));
-  return double(contrast()) >= MinimumContrast * std::min(1.0, brighter / WellLit);
+  return brighter > 0 && double(contrast()) >= MinimumContrast * std::min(1.0, brighter / WellLit);
 }
 
 Eigen::Vector3f EdgeSides::discriminant(float shadingInside) const

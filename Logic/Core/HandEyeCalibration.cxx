@@ -107,21 +107,29 @@ std::string crampedSpot(const Samples& samples, const Eyes& eyes, const HandEyeC
 std::vector<int> leftOutRun(const Samples& samples, const HandEyeCalibrationResult& result)
 {
   constexpr std::size_t fewest = 4;
-  // The eyes of a stereo rig see each frame at the same time.
-  std::vector<int> order(samples.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(
-    order.begin(), order.end(), [&](int a, int b) { return samples[std::size_t(a)].frame < samples[std::size_t(b)].frame; });
   const std::size_t leftOut = samples.size() - std::size_t(result.usedCount);
-  const auto isLeftOut = [&](int i) { return !result.samples[std::size_t(i)].used; };
-  const auto middle = order.begin() + std::ptrdiff_t(leftOut), last = order.end() - std::ptrdiff_t(leftOut);
-  if (leftOut >= fewest && std::all_of(order.begin(), middle, isLeftOut))
+  if (leftOut < fewest)
   {
-    return { order.begin(), middle };
+    return {};
   }
-  if (leftOut >= fewest && std::all_of(last, order.end(), isLeftOut))
+  // As they are given, one eye after the other: an eye as a whole may be wrong. And by frames: a marker slips for both eyes.
+  std::vector<int> asGiven(samples.size());
+  std::iota(asGiven.begin(), asGiven.end(), 0);
+  std::vector<int> byFrame = asGiven;
+  std::stable_sort(
+    byFrame.begin(), byFrame.end(), [&](int a, int b) { return samples[std::size_t(a)].frame < samples[std::size_t(b)].frame; });
+  const auto isLeftOut = [&](int i) { return !result.samples[std::size_t(i)].used; };
+  for (const std::vector<int>& order : { asGiven, byFrame })
   {
-    return { last, order.end() };
+    const auto first = order.begin() + std::ptrdiff_t(leftOut), last = order.end() - std::ptrdiff_t(leftOut);
+    if (std::all_of(order.begin(), first, isLeftOut))
+    {
+      return { order.begin(), first };
+    }
+    if (std::all_of(last, order.end(), isLeftOut))
+    {
+      return { last, order.end() };
+    }
   }
   return {};
 }

@@ -290,7 +290,6 @@ private:
     step_ = step.step();
     fit_.cone = lookedAround_.moved(step_);
     fit_.support_Image.clear();
-    fit_.supportTurns.clear();
     supportIndices_.clear();
     const double limit = std::max(SupportPx, SupportSigmas * fit_.sigmaPx);
     for (std::size_t i = 0; i < found_.edges.size(); ++i)
@@ -299,7 +298,6 @@ private:
       {
         const OutlineEdge& edge = found_.edges[i];
         fit_.support_Image.push_back(outline_.points_Image[edge.index] + edge.offsetPx * outline_.normals_Image[edge.index]);
-        fit_.supportTurns.push_back(outline_.turns[edge.index]);
         supportIndices_.push_back(edge.index);
       }
     }

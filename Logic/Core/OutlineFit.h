@@ -19,7 +19,6 @@ struct OutlineFit
 {
   SphereCone cone;
   std::vector<Eigen::Vector2d> support_Image;  ///< px: the edge points that the fit rests on, in their order along the outline
-  std::vector<double> supportTurns;            ///< rad about the axis, of each of them
   double visibleShare = 0;                     ///< of the outline: where such a point was found
   double blurPx = 0;                           ///< of the edges, standard deviation
   double twoSidedWidthPx = 0;                  ///< how much wider edges are on two opposite sides, which motion does
