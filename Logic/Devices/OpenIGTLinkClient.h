@@ -32,8 +32,8 @@ struct OpenIGTLinkClientOptions
 ///
 /// A server that is not there, vanishes or sends what is no OpenIGTLink is tried again every half second until stop(); the status
 /// says
-/// what is the matter. A damaged message is counted and left out, the ones after it are taken. Messages without a time (0) get that of
-/// their arrival, and the status says so.
+/// what is the matter. A damaged message is counted and left out, the ones after it are taken. Messages without a time (0) get
+/// that of their arrival, and the status says so.
 class OpenIGTLinkClient : public Source
 {
 public:

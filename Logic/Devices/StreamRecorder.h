@@ -17,10 +17,10 @@ namespace handeye::devices
 /// Records what is captured, while it is captured, to sequence metafiles: images with the poses of their moments, and, in a second
 /// file, every pose at its own time. Pixels go to the disk as they come; memory holds a few hundred bytes a frame.
 ///
-/// What cannot be written is left out and counted, and the rest goes on: a tool whose name cannot be a field (blanks, '='), an image of
-/// another size than the first. A disk that is full or gone ends the recording to that file and nothing else: add() then returns false,
-/// error() says why, and close() makes a file of what came before, where there is room for it. The files are complete or not there (see
-/// SequenceMetafileWriter).
+/// What cannot be written is left out and counted, and the rest goes on: a tool whose name cannot be a field (blanks, '='), an
+/// image of another size than the first. A disk that is full or gone ends the recording to that file and nothing else: add() then
+/// returns false, error() says why, and close() makes a file of what came before, where there is room for it. The files are
+/// complete or not there (see SequenceMetafileWriter).
 ///
 /// Not safe to share between threads.
 class StreamRecorder

@@ -61,8 +61,8 @@ public:
   /// When the frame was recorded; empty where the file does not say.
   std::optional<double> timestampSec(int frame) const;
 
-  /// The latency that the poses of the frames have been taken at already (the field AppliedLatencySec, which our recorder and session
-  /// write); 0 where the file does not say.
+  /// The latency that the poses of the frames have been taken at already (the field AppliedLatencySec, which our recorder and
+  /// session write); 0 where the file does not say.
   double appliedLatencySec() const { return appliedLatencySec_; }
 
   /// The image as recorded, in rows from the top: 8 or 16 bits; grey, BGR or BGRA (OpenCV's order).

@@ -45,8 +45,8 @@ public:
   /// @param frame its fields; names must not hold blanks, '=' or line ends, values no line ends
   /// @param image 8 or 16 bits, 1, 3 or 4 channels, the same size and type in every frame. An empty one is written in black with
   ///   ImageStatus INVALID.
-  /// @throws std::invalid_argument for other input: the frame is not taken, the next one can be. FileError where it cannot be written
-  ///   (disk full): no more frames are taken then, and close() still makes a file of those before
+  /// @throws std::invalid_argument for other input: the frame is not taken, the next one can be. FileError where it cannot be
+  /// written (disk full): no more frames are taken then, and close() still makes a file of those before
   void append(const SequenceFrame& frame, const cv::Mat& image = {});
 
   /// Finishes the file. @throws FileError where it cannot be written; nothing is left behind then

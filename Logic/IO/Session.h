@@ -62,8 +62,8 @@ public:
 
   /// Stores a sample. @return its id
   /// @throws FileError where it cannot be stored (disk full); nothing is accepted then, and the session goes on as before
-  /// @throws std::invalid_argument before anything is written: for an empty image, numbers that are not finite, names or statuses of
-  ///   transforms that a sequence metafile cannot hold (blanks, '=', line ends) and text that is no UTF-8
+  /// @throws std::invalid_argument before anything is written: for an empty image, numbers that are not finite, names or statuses
+  /// of transforms that a sequence metafile cannot hold (blanks, '=', line ends) and text that is no UTF-8
   int addSample(const cv::Mat& image, SessionSample sample);
 
   /// Sets a sample aside, or brings it back. @throws FileError; std::out_of_range for an id that there is not
@@ -78,8 +78,8 @@ public:
 
   const std::filesystem::path& folder() const { return folder_; }
   const std::map<int, SessionSample>& samples() const { return samples_; }
-  /// The latency that the samples' poses have been taken at (`latencySec` of their pairing); nothing without samples. All have the same:
-  /// addSample() refuses others.
+  /// The latency that the samples' poses have been taken at (`latencySec` of their pairing); nothing without samples. All have
+  /// the same: addSample() refuses others.
   std::optional<double> latencySec() const;
   /// The image of a sample. @throws FileError
   cv::Mat image(int id) const;

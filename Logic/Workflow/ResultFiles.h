@@ -37,8 +37,8 @@ Eigen::Vector3d readStylusTip(const std::filesystem::path& path);
 /// The tip's covariance (mm^2) of a stylus.json, zero where the file does not hold it. @throws io::FileError where it is none
 Eigen::Matrix3d readStylusTipCovariance(const std::filesystem::path& path);
 
-/// stylusTipToStylus of a stylus.json (p_Stylus = stylusTipToStylus * p_StylusTip, mm): with the shaft's direction where `handeye spin` has
-/// added it, nothing otherwise. @throws io::FileError naming the key
+/// stylusTipToStylus of a stylus.json (p_Stylus = stylusTipToStylus * p_StylusTip, mm): with the shaft's direction where `handeye
+/// spin` has added it, nothing otherwise. @throws io::FileError naming the key
 std::optional<Eigen::Isometry3d> readStylusTipFrame(const std::filesystem::path& path);
 
 /// All of a stylus.json, to be written again with more in it. @throws io::FileError as readStylusTip()
