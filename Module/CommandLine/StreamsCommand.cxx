@@ -111,7 +111,7 @@ int runStreams(StreamsArguments& arguments)
 void addStreamsCommand(CLI::App& app, int& exitCode)
 {
   auto arguments = std::make_shared<StreamsArguments>();
-  CLI::App* command = app.add_subcommand("streams", "List what a server, camera or recording streams, with the newest values");
+  CLI::App* command = app.add_subcommand("streams", "List what a server, camera or recording streams; --json with the newest values");
   arguments->sources.addTo(*command);
   command->add_option("--seconds", arguments->seconds, "How long to look")->capture_default_str()->type_name("SEC");
   arguments->output.addTo(*command);
