@@ -139,8 +139,8 @@ std::vector<ComparedMethod> ballMethods(
     makeMethod(shared, Method::Global, "point-to-line, proven global minimum", "this program"),
     makeMethod(shared, Method::Procrustes, "point-to-line, Procrustes iteration", "Morgan et al. 2017"),
   };
-  const bool hasPublished = std::any_of(
-    captures.begin(), captures.end(), [](const BallCapture& capture) { return !capture.publishedSamples.empty(); });
+  const bool hasPublished =
+    std::any_of(captures.begin(), captures.end(), [](const BallCapture& capture) { return !capture.publishedSamples.empty(); });
   if (hasPublished)
   {
     methods.push_back(makePublished(shared));

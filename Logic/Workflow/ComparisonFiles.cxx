@@ -143,9 +143,8 @@ std::string methodsCsv(const ComparisonResult& result)
 
 std::string errorsCsv(const ComparisonResult& result, const std::vector<HandEyeSample>& validation)
 {
-  std::string text =
-    line({ "method", "capture", "frame", "status", "distance_mm", "error_px", "segmented_u_px", "segmented_v_px", "projected_u_px",
-      "projected_v_px" });
+  std::string text = line({ "method", "capture", "frame", "status", "distance_mm", "error_px", "segmented_u_px", "segmented_v_px",
+    "projected_u_px", "projected_v_px" });
   for (const MethodResult& method : result.methods)
   {
     for (std::size_t capture = 0; capture < method.captures.size(); ++capture)
@@ -183,15 +182,15 @@ std::string subsetsCsv(const ComparisonResult& result)
 
 std::string repeatabilityCsv(const ComparisonResult& result)
 {
-  std::string text = line(
-    { "method", "of", "attempts", "calibrations", "rotation_deg", "translation_mm", "projection_px", "worst_projection_px" });
+  std::string text =
+    line({ "method", "of", "attempts", "calibrations", "rotation_deg", "translation_mm", "projection_px", "worst_projection_px" });
   for (const MethodResult& method : result.methods)
   {
     const Repeatability& spread = method.repeatability;
     const auto number = [&](double value) { return spread.calibrations > 1 ? csvNumber(value) : std::string(); };
-    text += line({ method.name, spread.areHalves ? "halves" : "captures", std::to_string(spread.attempts),
-      std::to_string(spread.calibrations), number(spread.rotationDeg), number(spread.translationMm), number(spread.projectionPx),
-      number(spread.worstPx) });
+    text += line(
+      { method.name, spread.areHalves ? "halves" : "captures", std::to_string(spread.attempts), std::to_string(spread.calibrations),
+        number(spread.rotationDeg), number(spread.translationMm), number(spread.projectionPx), number(spread.worstPx) });
   }
   return text;
 }

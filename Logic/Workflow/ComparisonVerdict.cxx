@@ -31,8 +31,17 @@ std::map<std::pair<int, int>, double> errorsOf(const MethodResult& method)
   return errors;
 }
 
+/// How far (px) another capture would have moved the method's calibration, where that is known.
+double expectedShift(const MethodResult& method)
+{
+  const Repeatability& spread = method.repeatability;
+  const double oneCapture = spread.areHalves ? spread.projectionPx / std::sqrt(2.0) : spread.projectionPx;
+  return spread.calibrations > 1 ? oneCapture / std::sqrt(std::max(1.0, double(method.usableCount()))) : 0;
+}
+
 /// Whether the mean of the paired differences is within twice its standard error. The errors of one calibration go together, so the
-/// capture is the unit from 5 captures on; below that the samples are.
+/// capture is the unit from 5 captures on; below that the samples are, and a difference must exceed what another capture would have
+/// changed as well.
 bool areAlike(const MethodResult& a, const MethodResult& b)
 {
   std::map<int, std::vector<double>> byCapture;
@@ -62,7 +71,8 @@ bool areAlike(const MethodResult& a, const MethodResult& b)
     return true;
   }
   const Summary summary = summarize(differences);
-  return std::abs(summary.mean) <= 2 * summary.standardDeviation / std::sqrt(double(summary.count));
+  const double noise = 2 * summary.standardDeviation / std::sqrt(double(summary.count));
+  return std::abs(summary.mean) <= std::max(noise, byCapture.size() >= 5 ? 0.0 : expectedShift(a));
 }
 
 std::string errorWords(const MethodResult& method)
@@ -90,7 +100,7 @@ std::string describeRivals(const ComparisonResult& result)
   {
     names += (names.empty() ? "" : ", ") + result.methods[std::size_t(index)].name;
   }
-  return names.empty() ? std::string() : " Not told apart from it by this validation set: " + names + ".";
+  return names.empty() ? std::string() : " Not told apart from it by these data: " + names + ".";
 }
 
 std::string describeFailures(const ComparisonResult& result)
@@ -112,11 +122,10 @@ std::string describeFailures(const ComparisonResult& result)
 std::string describe(const ComparisonResult& result)
 {
   const MethodResult& best = result.methods[std::size_t(result.ranking.front())];
-  std::string text = "The lowest mean projection error has " + best.name + " (" + best.title + "): " + errorWords(best) + ", over " +
-    std::to_string(best.errorPx.count) + " validation samples.";
+  std::string text = "The lowest mean projection error has " + best.name + " (" + best.title + "): " + errorWords(best) +
+    ", over " + std::to_string(best.errorPx.count) + " validation samples.";
   text += describeRivals(result);
-  const auto other =
-    best.target == ComparedMethod::Target::Ball ? ComparedMethod::Target::Board : ComparedMethod::Target::Ball;
+  const auto other = best.target == ComparedMethod::Target::Ball ? ComparedMethod::Target::Board : ComparedMethod::Target::Ball;
   if (const MethodResult* second = bestOf(result, other))
   {
     text += std::string(" The best of the methods with a ") + toString(other) + " is " + second->name + ": " + errorWords(*second) +
@@ -129,8 +138,8 @@ std::string describe(const ComparisonResult& result)
 
 int MethodResult::usableCount() const
 {
-  return int(std::count_if(
-    captures.begin(), captures.end(), [](const ComparedCapture& capture) { return capture.answer.isUsable(); }));
+  return int(
+    std::count_if(captures.begin(), captures.end(), [](const ComparedCapture& capture) { return capture.answer.isUsable(); }));
 }
 
 double MethodResult::medianSeconds() const
@@ -168,10 +177,9 @@ void summarizeMethod(MethodResult& method)
   }
   method.status = errors.empty() ? "not_in_view" : "ok";
   method.message = errors.empty() ? "its calibrations put no ball of the validation set into view"
-    : failure != nullptr
-    ? std::to_string(total - usable) + " of " + std::to_string(total) + " captures failed, the first: " + failure->status + ", " +
-      failure->message
-    : method.captures.front().answer.message;
+    : failure != nullptr          ? std::to_string(total - usable) + " of " + std::to_string(total) +
+      " captures failed, the first: " + failure->status + ", " + failure->message
+                         : method.captures.front().answer.message;
 }
 
 void judgeComparison(ComparisonResult& result)

@@ -61,8 +61,8 @@ private:
 class Comparer
 {
 public:
-  Comparer(
-    const ComparedMethod& method, const std::vector<HandEyeSample>& validation, const CameraModel& camera, const ComparisonOptions& options)
+  Comparer(const ComparedMethod& method, const std::vector<HandEyeSample>& validation, const CameraModel& camera,
+    const ComparisonOptions& options)
     : method_(method)
     , validation_(validation)
     , camera_(camera)

@@ -118,8 +118,9 @@ struct ComparisonResult
 {
   std::vector<MethodResult> methods;  ///< in the order given
   std::vector<int> ranking;           ///< indices of the usable ones, lowest mean error first
-  /// Of the ranking, those whose mean error cannot be told from the best one's: the paired difference over the validation samples
-  /// is below twice its standard error.
+  /// Of the ranking, those whose mean error cannot be told from the best one's: the paired difference over the validation samples (from 5
+  /// captures on: over the captures) is below twice its standard error or, with fewer captures, below what another capture would have
+  /// changed.
   std::vector<int> notToldApart;
   int validationCount = 0;
   bool wasStopped = false;

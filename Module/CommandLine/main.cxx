@@ -50,6 +50,7 @@ int main(int argc, char** argv)
   addSpinCommand(app, exitCode);
   addCalibrateCommand(app, exitCode);
   addValidateCommand(app, exitCode);
+  addCompareCommand(app, exitCode);
   addDetectCommand(app, exitCode);
   addRegisterCommand(app, exitCode);
   addLandmarksCommand(app, exitCode);
