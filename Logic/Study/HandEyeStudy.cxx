@@ -49,7 +49,7 @@ void prepareNoise(const StudyOptions& options, const StudyPictures* pictures, St
   {
     throw std::runtime_error("ball or board are not found in the rendered pictures of the " + result.camera.name);
   }
-  result.noise = { options.trackingSigmaMm, options.trackingSigmaDeg * EIGEN_PI / 180, result.measured.ballSigmaPx,
+  result.noise = { options.trackingSigmaMm, options.trackingSigmaDeg * double(EIGEN_PI) / 180, result.measured.ballSigmaPx,
     result.measured.cornerSigmaPx };
 }
 

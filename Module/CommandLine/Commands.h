@@ -32,5 +32,6 @@ void addRecordCommand(CLI::App& app, int& exitCode);
 void addCaptureCommand(CLI::App& app, int& exitCode);
 void addStreamsCommand(CLI::App& app, int& exitCode);
 void addLatencyCommand(CLI::App& app, int& exitCode);
+void addStudyCommand(CLI::App& app, int& exitCode);
 
 }  // namespace handeye::cli

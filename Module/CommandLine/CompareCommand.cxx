@@ -5,6 +5,7 @@
 #include "Commands.h"
 #include "CommonOptions.h"
 #include "CompareCaptures.h"
+#include "ComparedBoardMethods.h"
 #include "ComparedMethods.h"
 #include "ComparisonFiles.h"
 #include "ComparisonReport.h"
@@ -18,6 +19,7 @@
 
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 
 namespace handeye::cli
 {
@@ -28,7 +30,9 @@ namespace
 struct CompareArguments
 {
   std::string validation, camera, stylus, report;
-  std::vector<std::string> ballRecordings;
+  std::vector<std::string> ballRecordings, boardRecordings;
+  std::string board, boardTransform = "BoardToTracker";
+  double branchAndBoundSec = 60;
   double ballRadiusMm = 0;
   BallOptions ball;
   ToolNames tools;
@@ -87,12 +91,42 @@ std::vector<std::string> factsOf(const CompareArguments& arguments, const Compar
   return facts;
 }
 
+/// The branch and bound takes so long that it says how far it is.
+BoardMethodsOptions boardOptions(const CompareArguments& arguments)
+{
+  BoardMethodsOptions options;
+  options.withBranchAndBound = arguments.branchAndBoundSec > 0;
+  options.options.timeLimitSec = options.withBranchAndBound ? arguments.branchAndBoundSec : options.options.timeLimitSec;
+  const bool isTerminal = isatty(STDERR_FILENO) != 0;
+  options.progress = [isTerminal](const BranchAndBoundState& state)
+  {
+    if (isTerminal)
+    {
+      std::cerr << format("\rbranch and bound: %.0f s, best %.3f mrad, proven bound %.3f mrad", state.elapsedSec,
+                     1e3 * state.bestErrorRad, 1e3 * state.lowerBoundRad)
+                << "\033[K" << std::flush;
+    }
+    return !isStopAsked();
+  };
+  return options;
+}
+
 int runCompare(CompareArguments& arguments)
 {
+  if (arguments.ballRecordings.empty() && arguments.boardRecordings.empty())
+  {
+    throw std::invalid_argument("there is nothing to calibrate from: --ball RECORDING or --board-recording RECORDING is expected");
+  }
   catchStopSignals();
   CompareInputs inputs;
   inputs.validation = arguments.validation;
   inputs.ballRecordings = arguments.ballRecordings;
+  inputs.boardRecordings = arguments.boardRecordings;
+  inputs.boardToTracker = arguments.boardTransform;
+  if (!arguments.board.empty())
+  {
+    inputs.board = parseBoard(arguments.board);
+  }
   inputs.tip_Stylus = readStylusTip(arguments.stylus);
   inputs.ballRadiusMm = arguments.ballRadiusMm;
   inputs.tools = arguments.tools;
@@ -101,7 +135,9 @@ int runCompare(CompareArguments& arguments)
   const io::CameraFile file = io::readCameraFile(arguments.camera);
   arguments.output.warn(file.warnings);
   const CompareCaptures captures = readCompareCaptures(inputs, file.camera, arguments.ball, arguments.output);
-  const std::vector<ComparedMethod> methods = ballMethods(captures.balls, captures.camera, arguments.calibration);
+  std::vector<ComparedMethod> methods = ballMethods(captures.balls, captures.camera, arguments.calibration);
+  const std::vector<ComparedMethod> classical = boardMethods(captures.boards, captures.camera, boardOptions(arguments));
+  methods.insert(methods.end(), classical.begin(), classical.end());
   arguments.comparison.progress = comparisonProgress();
   const ComparisonResult result = compareMethods(methods, captures.validation, captures.camera, arguments.comparison);
   if (!result.wasStopped)
@@ -130,6 +166,10 @@ void addComparisonOptions(CLI::App& command, CompareArguments& arguments)
     ->check(CLI::Range(0, 10000))
     ->capture_default_str()
     ->type_name("N");
+  command.add_option("--time-limit", arguments.branchAndBoundSec, "Of the branch and bound for each capture, s; 0 leaves it out")
+    ->check(CLI::Range(0.0, 86400.0))
+    ->capture_default_str()
+    ->type_name("SEC");
   command.add_option("--seed", arguments.comparison.seed, "Of the random subsets and halves")->capture_default_str();
   command.add_flag("!--without-published", arguments.withPublished, "Leave out the paper's own segmentation and iteration");
 }
@@ -153,11 +193,20 @@ void addCompareCommand(CLI::App& app, int& exitCode)
     ->type_name("RECORDING")
     ->expected(1)
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  CLI::Option* boards = command->add_option("--board-recording", arguments->boardRecordings,
+    "Capture of a board that stands still while the tracked camera moves; several times for independent captures");
+  boards->type_name("RECORDING")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  CLI::Option* board = command->add_option(
+    "--board", arguments->board, "What is on it: chessboard:COLSxROWS:SQUARE_MM, charuco:..., circles:..., acircles:...");
+  board->type_name("BOARD");
+  boards->needs(board);
+  board->needs(boards);
   command->add_option("--report", arguments->report, "Write report.html, report.pdf and the data as CSV into this folder")
     ->type_name("DIR");
   arguments->ball.addTo(*command);
   addTransformOption(*command, "--stylus-transform", arguments->tools.stylusToTracker, "stylus");
   addTransformOption(*command, "--marker-transform", arguments->tools.markerToTracker, "camera's marker");
+  addTransformOption(*command, "--board-transform", arguments->boardTransform, "board itself, where it is tracked,");
   addLatencyOption(*command, arguments->tools.latencySec);
   addComparisonOptions(*command, *arguments);
   arguments->output.addTo(*command);

@@ -62,6 +62,7 @@ int main(int argc, char** argv)
   addCaptureCommand(app, exitCode);
   addStreamsCommand(app, exitCode);
   addLatencyCommand(app, exitCode);
+  addStudyCommand(app, exitCode);
   try
   {
     app.parse(argc, argv);
