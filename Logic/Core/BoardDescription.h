@@ -16,13 +16,10 @@ namespace handeye
 /// printed; z points into the board, so that a board that is looked at squarely has all its axes along those of `Camera`. Points
 /// are numbered row by row: 0, 1, ... columns - 1, then the next row.
 ///
-/// | kind                | text                                           | points                                             |
-/// |---------------------|------------------------------------------------|----------------------------------------------------|
-/// | `Chessboard`        | chessboard:COLSxROWS:SQUARE_MM                 | the inner corners, COLS x ROWS of them             |
-/// | `Charuco`           | charuco:COLSxROWS:SQUARE_MM:MARKER_MM:DICTIONARY | COLS x ROWS *squares*, (COLS-1) x (ROWS-1) corners |
-/// | `Circles`           | circles:COLSxROWS:SPACING_MM                   | the centres of black circles                       |
-/// | `AsymmetricCircles` | acircles:COLSxROWS:SPACING_MM                  | point (column, row) at ((2 column + row % 2), row)
-/// times SPACING |
+///     chessboard:COLSxROWS:SQUARE_MM                     the inner corners, COLS x ROWS of them
+///     charuco:COLSxROWS:SQUARE_MM:MARKER_MM:DICTIONARY   COLS x ROWS squares: (COLS - 1) x (ROWS - 1) corners
+///     circles:COLSxROWS:SPACING_MM                       the centres of black circles
+///     acircles:COLSxROWS:SPACING_MM                      those of circles at (2 column + row % 2, row) times SPACING_MM
 ///
 /// The asymmetric grid is OpenCV's: neighbours in a row are two spacings apart. Circles have a diameter of half a spacing
 /// (`circles`) or of one spacing (`acircles`) when they are printed by us; any other does for reading.

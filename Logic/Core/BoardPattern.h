@@ -43,6 +43,8 @@ public:
   bool isBlack(const Eigen::Vector2d& point_Board) const;
 
 private:
+  void fillGrid();
+
   std::vector<Rectangle> rectangles_;
   std::vector<Circle> circles_;
   Rectangle pattern_;

@@ -59,7 +59,7 @@ struct LensModelComparison
   double rmsPx = 0;
   double informationCriterion = 0;  ///< Schwarz': n ln(cost / n) + parameters ln(n); smaller is better
   double focalPx = 0;               ///< mean of fx and fy
-  bool isSupported = false;         ///< every block of coefficients beyond the smaller model is significant
+  bool isSupported = false;         ///< the smallest model, or one that lowers the criterion by more than 10
 };
 
 struct LensCalibrationResult
@@ -108,8 +108,10 @@ struct LensCalibrationResult
 ///
 /// Views that disagree with the rest are left out and named, one at a time, the worst first. The standard deviations follow from
 /// the
-/// normal equations and the scatter of the residuals. Which model the data support: the smallest for which no larger one has a
-/// smaller Schwarz criterion by more than 10 and coefficients that differ from 0 by three of their standard deviations.
+/// normal equations and the scatter of the residuals. Which model the data support: the largest that lowers Schwarz' criterion by
+/// more than 10 against the smaller ones, which takes the standard deviations of its coefficients, and how they hide each other,
+/// into
+/// account.
 ///
 /// @param views of one board, taken with the same zoom and focus
 /// @param width,height of the pictures, px

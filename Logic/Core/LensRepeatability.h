@@ -27,8 +27,8 @@ struct LensRepetition
   int failedCount = 0;
   Summary fx, fy, cx, cy;             ///< px
   std::vector<Summary> coefficients;  ///< in their order
-  /// Largest distance (px) between where two calibrations see the same ray, over a grid of the image: mean and maximum over the
-  /// repetitions against their mean. What the spread of the parameters, which hide each other, comes to.
+  /// How far (px) the repeated lenses see the rays from where the lens of all views sees them, over a grid of the image: what the
+  /// spread of the parameters, which hide each other, comes to.
   double meanShiftPx = 0;
   double maximumShiftPx = 0;
 };

@@ -12,6 +12,11 @@
 
 #include <memory>
 
+namespace handeye
+{
+class BoardPattern;
+}
+
 namespace handeye::simulation
 {
 
@@ -44,7 +49,7 @@ public:
   cv::Mat take(const Eigen::Isometry3d& boardToCamera, const Photograph& how = {}) const;
 
 private:
-  BoardDescription board_;
+  std::unique_ptr<BoardPattern> pattern_;
   CameraModel camera_;
   BoardLight light_;
   std::unique_ptr<RayTable> rays_;
