@@ -51,10 +51,11 @@ function(handeye_add_library target)
   install(FILES ${arg_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/HandEye)
 endfunction()
 
-# handeye_use_qt(<target>): moc, uic and rcc for a target; the others do not pay for looking. Texts go through tr(): a plain string
-# does not become a QString by itself.
+# handeye_use_qt(<target> [TRANSLATED]): moc, uic and rcc for a target; the others do not pay for looking. TRANSLATED: texts go through
+# tr(), and a plain string does not become a QString by itself.
 function(handeye_use_qt target)
   set_target_properties(${target} PROPERTIES AUTOMOC ON AUTOUIC ON AUTORCC ON
     AUTOUIC_SEARCH_PATHS "${PROJECT_SOURCE_DIR}/Resources/UI;${PROJECT_SOURCE_DIR}/Module/Resources/UI")
-  target_compile_definitions(${target} PRIVATE QT_NO_CAST_FROM_ASCII QT_NO_FOREACH QT_DEPRECATED_WARNINGS)
+  target_compile_definitions(${target} PRIVATE QT_NO_FOREACH QT_DEPRECATED_WARNINGS
+    $<$<STREQUAL:"${ARGV1}","TRANSLATED">:QT_NO_CAST_FROM_ASCII>)
 endfunction()
