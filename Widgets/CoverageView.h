@@ -68,6 +68,7 @@ protected:
   bool event(QEvent* event) override;
 
 private:
+  void paintBand(QPainter& painter, int band) const;
   std::optional<Field> fieldAt(const QPointF& point_Widget) const;
   void updateAccessibility();
 

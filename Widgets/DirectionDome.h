@@ -57,6 +57,7 @@ protected:
 
 private:
   QRectF domeRectangle() const;
+  void paintWords(QPainter& painter, double top) const;
   QString describe(int cell) const;
   void updateAccessibility();
 

@@ -56,6 +56,10 @@ public:
   /// @throws std::invalid_argument if an id occurs twice (naming it)
   void setRows(const QVector<SampleRow>& rows);
   const QVector<SampleRow>& rows() const { return rows_; }
+  /// Whether the check box can be changed; true until set.
+  void setCheckable(bool checkable);
+  /// "Residual" until set.
+  void setResidualTitle(const QString& title);
   /// The row of a sample; -1 if it is not there.
   int rowOf(int id) const;
 
@@ -70,7 +74,13 @@ signals:
   void excludeRequested(QVector<int> ids, bool excluded);
 
 private:
+  QString text(const SampleRow& row, int column) const;
+  QVariant sortKey(const SampleRow& row, int column) const;
+  QString toolTip(const SampleRow& row, int column) const;
+
   QVector<SampleRow> rows_;
+  QString residualTitle_;
+  bool checkable_ = true;
 };
 
 }  // namespace handeye

@@ -63,7 +63,7 @@ public:
   void setChoice(Role role, const QString& name);
   QComboBox* choiceBox(Role role) const;
 
-  /// The light of a stream as a picture of this many logical px; shape and colour differ.
+  /// The light of a stream: shape and colour differ.
   static QIcon lightIcon(Light light);
   /// "live", "stale", "lost" in the person's language.
   static QString lightWord(Light light);
