@@ -74,6 +74,7 @@ public:
 
   /// The room that kind SimulatedRoom has; the default one until set.
   void setRoomOptions(const simulation::RoomOptions& room) { roomOptions_ = room; }
+  const simulation::RoomOptions& roomOptions() const { return roomOptions_; }
 
   /// Connects to what the setup names, and leaves what was connected before. @return false with problem() where it makes no sense
   bool connectDevices(const DeviceSetup& setup);

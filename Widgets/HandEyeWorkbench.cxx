@@ -4,6 +4,7 @@
 
 #include "BallColorLearning.h"
 #include "JsonEigen.h"
+#include "LandmarkFiles.h"
 #include "ResultFiles.h"
 #include "WorkThread.h"
 #include "vtkSlicerHandEyeCalibrationLogic.h"
@@ -43,6 +44,16 @@ HandEyeWorkbench::HandEyeWorkbench(vtkSlicerHandEyeCalibrationLogic* logic, QObj
   , validationCapture_(new CaptureTask(*work_, this))
 {
   connectTasks();
+  try
+  {
+    simulation::RoomOptions room;
+    room.landmarks_Model = readModelLandmarks(ownLandmarks().toStdString());
+    devices_->setRoomOptions(room);
+  }
+  catch (const std::exception&)
+  {
+    // A room in which no landmarks are touched; the page Overlay says that the file is missing.
+  }
 }
 
 HandEyeWorkbench::~HandEyeWorkbench()

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HandEyeWorkbench.h"
 
-#include "LandmarkFiles.h"
 #include "MeshReader.h"
 #include "OverlayPose.h"
 #include "ResultFiles.h"

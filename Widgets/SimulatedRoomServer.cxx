@@ -80,6 +80,8 @@ simulation::RoomOptions SimulatedRoomServer::optionsOf(RoomScene scene) const
       options.motion = simulation::RoomMotion::Placements;
       break;
     case RoomScene::Landmarks:
+      options.motion = room_.landmarks_Model.empty() ? simulation::RoomMotion::Free : simulation::RoomMotion::Landmarks;
+      break;
     case RoomScene::Free:
       options.motion = simulation::RoomMotion::Free;
       break;
