@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "CameraFileWriter.h"
+
 #include <filesystem>
-#include <optional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,7 +29,10 @@ struct ExportFormat
   bool isOneCamera;      ///< a second eye of a stereo rig is left out
 };
 
-/// All formats, each once.
+/// The words for the kinds of camera file: "opencv", "ros", ...
+const std::map<std::string, io::CameraFormat>& cameraFormats();
+
+/// All formats that a calibration is exported in, each once.
 const std::vector<ExportFormat>& exportFormats();
 
 struct ExportResult
