@@ -6,6 +6,7 @@
 #include <QImage>
 #include <QPalette>
 #include <QSurfaceFormat>
+#include <QStyle>
 #include <QTest>
 #include <QVTKOpenGLNativeWidget.h>
 

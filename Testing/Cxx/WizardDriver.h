@@ -4,12 +4,14 @@
 
 #include "HandEyeCalibrationPanel.h"
 #include "HandEyeWorkbench.h"
+#include "WizardPage.h"
 
 #include <QElapsedTimer>
 #include <QLabel>
 #include <QPushButton>
 #include <QString>
 #include <QTimer>
+#include <QToolButton>
 #include <QtTest>
 
 #include <algorithm>
@@ -30,7 +32,7 @@ public:
   /// A child of the page that is shown.
   template<typename Widget = QPushButton> Widget* onPage(const char* name) const
   {
-    return reinterpret_cast<QWidget*>(panel_.page(panel_.currentStep()))->findChild<Widget*>(QString::fromLatin1(name));
+    return static_cast<QWidget*>(panel_.page(panel_.currentStep()))->findChild<Widget*>(QString::fromLatin1(name));
   }
 
   static void click(QAbstractButton* button) { QTest::mouseClick(button, Qt::LeftButton); }

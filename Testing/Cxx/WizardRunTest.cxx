@@ -1,17 +1,12 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CameraFile.h"
+#include "WidgetTestSupport.h"
 #include "WizardDriver.h"
 #include "WizardPage.h"
 #include "WizardStepBar.h"
 #include "vtkSlicerHandEyeCalibrationLogic.h"
 
-#include <QDir>
-#include <QFile>
-#include <QJsonDocument>
-#include <QJsonObject>
-#include <QTemporaryDir>
-#include <QVTKOpenGLNativeWidget.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 
@@ -124,12 +119,6 @@ void WizardRunTest::simulatedRun_CalibrationIsTheRoomsTruth()
   QVERIFY(error.translation().norm() < 2.5);
 }
 
-int main(int argc, char** argv)
-{
-  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
-  QApplication app(argc, argv);
-  WizardRunTest test;
-  return QTest::qExec(&test, argc, argv);
-}
+HANDEYE_WIDGET_TEST_MAIN(WizardRunTest)
 
 #include "WizardRunTest.moc"
