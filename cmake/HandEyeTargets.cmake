@@ -24,11 +24,18 @@ function(handeye_configure_target target)
     $<$<BOOL:${HANDEYE_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
 
-# handeye_add_library(<target> ALIAS <name> SOURCES ... HEADERS ... PUBLIC ... PRIVATE ...)
-# A layer: its own folder is its public include directory, so that a layer cannot include what it does not link.
+# handeye_add_library(<target> ALIAS <name> [STATIC|SHARED] [INTERNAL] SOURCES ... HEADERS ... PUBLIC ... PRIVATE ...)
+# A layer: its own folder is its public include directory, so that a layer cannot include what it does not link. INTERNAL: a part of
+# our programs and plugins, which is not installed by itself.
 function(handeye_add_library target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "ALIAS" "SOURCES;HEADERS;PUBLIC;PRIVATE")
-  add_library(${target} ${arg_SOURCES} ${arg_HEADERS})
+  cmake_parse_arguments(PARSE_ARGV 1 arg "STATIC;SHARED;INTERNAL" "ALIAS" "SOURCES;HEADERS;PUBLIC;PRIVATE")
+  set(type)
+  if(arg_STATIC)
+    set(type STATIC)
+  elseif(arg_SHARED)
+    set(type SHARED)
+  endif()
+  add_library(${target} ${type} ${arg_SOURCES} ${arg_HEADERS})
   add_library(HandEye::${arg_ALIAS} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${arg_ALIAS} VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR})
@@ -36,7 +43,19 @@ function(handeye_add_library target)
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/HandEye>)
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   handeye_configure_target(${target})
+  if(arg_INTERNAL)
+    return()
+  endif()
   install(TARGETS ${target} EXPORT HandEyeTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(FILES ${arg_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/HandEye)
+endfunction()
+
+# handeye_use_qt(<target> [TRANSLATED]): moc, uic and rcc for a target; the others do not pay for looking. TRANSLATED: texts go through
+# tr(), and a plain string does not become a QString by itself.
+function(handeye_use_qt target)
+  set_target_properties(${target} PROPERTIES AUTOMOC ON AUTOUIC ON AUTORCC ON
+    AUTOUIC_SEARCH_PATHS "${PROJECT_SOURCE_DIR}/Resources/UI;${PROJECT_SOURCE_DIR}/Module/Resources/UI")
+  target_compile_definitions(${target} PRIVATE QT_NO_FOREACH QT_DEPRECATED_WARNINGS
+    $<$<STREQUAL:"${ARGV1}","TRANSLATED">:QT_NO_CAST_FROM_ASCII>)
 endfunction()
