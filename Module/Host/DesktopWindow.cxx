@@ -118,13 +118,13 @@ void DesktopWindow::updateLogButton()
 {
   const int errors = this->Log->count(LogLevel::Error);
   const int warnings = this->Log->count(LogLevel::Warning);
-  this->LogButton->setText(errors > 0 ? tr("%n error(s)", nullptr, errors)
-      : warnings > 0                  ? tr("%n warning(s)", nullptr, warnings)
-                                      : tr("Log"));
+  const QString errorText = errors == 1 ? tr("1 error") : tr("%1 errors").arg(errors);
+  const QString warningText = warnings == 1 ? tr("1 warning") : tr("%1 warnings").arg(warnings);
+  this->LogButton->setText(errors > 0 ? errorText : warnings > 0 ? warningText : tr("Log"));
   this->LogButton->setIcon(errors > 0 ? levelIcon(LogLevel::Error)
       : warnings > 0                  ? levelIcon(LogLevel::Warning)
                                       : icon(QStringLiteral("log")));
-  this->LogButton->setToolTip(tr("The log: %1 errors, %2 warnings").arg(errors).arg(warnings));
+  this->LogButton->setToolTip(tr("The log: %1, %2").arg(errorText, warningText));
   this->LogButton->setAccessibleName(this->LogButton->toolTip());
 }
 

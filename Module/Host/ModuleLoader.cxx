@@ -96,6 +96,12 @@ void ModuleLoader::loadFile(const QString& path, std::vector<Loaded>& loaded)
     entry.plugin->setLoadHints(QLibrary::ResolveAllSymbolsHint | QLibrary::PreventUnloadHint);
     QObject* const root = entry.plugin->instance();
     entry.module = qobject_cast<qSlicerLoadableModule*>(root);
+    // A plugin has one root object, however many names its file has.
+    if (entry.module && !entry.module->name().isEmpty())
+    {
+      this->addProblem(path, tr("the same file was loaded before, as \"%1\"").arg(entry.module->name()));
+      return;
+    }
     if (entry.module)
     {
       entry.module->setName(file.name);

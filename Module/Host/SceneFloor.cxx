@@ -22,7 +22,6 @@ SceneFloor::SceneFloor(vtkRenderer* renderer)
   this->Actor->GetProperty()->SetLighting(false);
   this->Actor->GetProperty()->SetOpacity(0.55);
   this->Actor->SetPickable(false);
-  this->Actor->SetUseBounds(false);
   renderer->AddViewProp(this->Actor);
   const double nothing[6] = { 1, -1, 1, -1, 1, -1 };
   this->placeUnder(nothing);
@@ -32,6 +31,11 @@ void SceneFloor::setPlane(Plane plane)
 {
   this->Across = plane;
   this->Actor->SetVisibility(plane != Plane::None);
+}
+
+void SceneFloor::setCounted(bool on)
+{
+  this->Actor->SetUseBounds(on);
 }
 
 void SceneFloor::setColor(double red, double green, double blue)

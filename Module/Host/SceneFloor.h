@@ -11,8 +11,7 @@ class vtkRenderer;
 namespace desktop
 {
 
-/// A grid under what is in a scene, for a sense of place and size. It does not count as something to be seen: resetting the camera leaves it
-/// out.
+/// A grid under what is in a scene, for a sense of place and size.
 class SceneFloor
 {
 public:
@@ -30,6 +29,9 @@ public:
   void setPlane(Plane plane);
   Plane plane() const { return this->Across; }
   void setColor(double red, double green, double blue);
+
+  /// Whether the grid counts as a part of the scene: for what is near and far of a camera yes, for what there is to be seen no.
+  void setCounted(bool on);
 
   /// Lays the grid below these bounds (mm; VTK's order of six), or about the origin if they are empty.
   void placeUnder(const double bounds[6]);

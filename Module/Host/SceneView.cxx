@@ -11,6 +11,7 @@
 #include <vtkCamera.h>
 #include <vtkCaptionActor2D.h>
 #include <vtkInteractorStyleTrackballCamera.h>
+#include <vtkObjectFactory.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkTextProperty.h>
 
@@ -23,8 +24,36 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include <functional>
+
 namespace desktop
 {
+
+namespace
+{
+
+// A trackball with one key, R. VTK's other keys (wireframe, stereo, quit...) are not for a room in which somebody leans on the keyboard.
+class TrackballStyle : public vtkInteractorStyleTrackballCamera
+{
+public:
+  static TrackballStyle* New();
+  vtkTypeMacro(TrackballStyle, vtkInteractorStyleTrackballCamera)
+
+  void OnChar() override
+  {
+    const char key = this->GetInteractor()->GetKeyCode();
+    if ((key == 'r' || key == 'R') && this->Reset)
+    {
+      this->Reset();
+    }
+  }
+
+  std::function<void()> Reset;
+};
+
+vtkStandardNewMacro(TrackballStyle);
+
+}  // namespace
 
 static const QString floorKey = QStringLiteral("Desktop/floor");
 
@@ -43,7 +72,8 @@ SceneView::SceneView(QWidget* parent)
   this->Window->AddRenderer(this->Renderer);
   this->Window->SetMultiSamples(0);
   this->Renderer->SetUseFXAA(true);
-  vtkNew<vtkInteractorStyleTrackballCamera> style;
+  vtkNew<TrackballStyle> style;
+  style->Reset = [this] { this->resetCamera(); };
   this->View->interactor()->SetInteractorStyle(style);
 
   vtkNew<vtkAxesActor> axes;
@@ -160,18 +190,24 @@ void SceneView::setFloor(int plane)
   this->Floor->setPlane(SceneFloor::Plane(qBound(0, plane, int(SceneFloor::Plane::AcrossZ))));
   QSettings().setValue(floorKey, int(this->Floor->plane()));
   double bounds[6];
-  this->Renderer->ComputeVisiblePropBounds(bounds);
-  this->Floor->placeUnder(bounds);
-  this->Scale->setText(
-    this->Floor->plane() == SceneFloor::Plane::None ? QString() : tr("floor: %1 mm").arg(this->Floor->spacingMm()));
+  this->measureScene(bounds);
   this->requestRender();
+}
+
+void SceneView::measureScene(double bounds[6])
+{
+  this->Floor->setCounted(false);
+  this->Renderer->ComputeVisiblePropBounds(bounds);
+  this->Floor->setCounted(true);
+  this->Floor->placeUnder(bounds);
+  const bool hasFloor = this->Floor->plane() != SceneFloor::Plane::None;
+  this->Scale->setText(hasFloor ? tr("floor: %1 mm").arg(this->Floor->spacingMm()) : QString());
 }
 
 void SceneView::resetCamera()
 {
   double bounds[6];
-  this->Renderer->ComputeVisiblePropBounds(bounds);
-  this->Floor->placeUnder(bounds);
+  this->measureScene(bounds);
   if (bounds[0] > bounds[1])
   {
     vtkCamera* const camera = this->Renderer->GetActiveCamera();
@@ -182,10 +218,6 @@ void SceneView::resetCamera()
   else
   {
     this->Renderer->ResetCamera(bounds);
-  }
-  if (this->Floor->plane() != SceneFloor::Plane::None)
-  {
-    this->Scale->setText(tr("floor: %1 mm").arg(this->Floor->spacingMm()));
   }
   this->requestRender();
 }

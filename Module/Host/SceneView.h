@@ -53,6 +53,8 @@ private:
   void applyTheme();
   void render();
   void setFloor(int plane);
+  /// Without the floor; puts the floor under it.
+  void measureScene(double bounds[6]);
 
   QVTKOpenGLNativeWidget* View;
   QWidget* Bar;

@@ -125,7 +125,10 @@ int run(QApplication& application, const DesktopOptions& options)
   }
   window.loadModules(desktop::defaultModuleFolders() + options.additionalModulePaths + settings.moduleFolders);
   window.show();
-  window.showModule(options.module);
+  if (!window.showModule(options.module))
+  {
+    window.showModule(QString());
+  }
   if (splash)
   {
     splash->finish(&window);
