@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qSlicerHandEyeCalibrationModuleWidget.h"
 
+#include "HandEyeCalibrationPanel.h"
 #include "MRMLBridge.h"
+#include "findNavigationHost.h"
 #include "ui_qSlicerHandEyeCalibrationModuleWidget.h"
 #include "vtkSlicerHandEyeCalibrationLogic.h"
 
@@ -26,6 +28,7 @@ public:
   vtkSmartPointer<vtkSlicerHandEyeCalibrationLogic> logic;
   std::vector<unsigned long> observers;
   std::unique_ptr<MRMLBridge> bridge;
+  HandEyeCalibrationPanel* panel = nullptr;
 };
 
 void qSlicerHandEyeCalibrationModuleWidgetPrivate::observe(vtkSlicerHandEyeCalibrationLogic* newLogic)
@@ -98,6 +101,8 @@ qSlicerHandEyeCalibrationModuleWidget::~qSlicerHandEyeCalibrationModuleWidget()
 {
   Q_D(qSlicerHandEyeCalibrationModuleWidget);
   d->observe(nullptr);
+  // Before the logic that it uses.
+  delete d->panel;
 }
 
 void qSlicerHandEyeCalibrationModuleWidget::setup()
@@ -106,6 +111,8 @@ void qSlicerHandEyeCalibrationModuleWidget::setup()
   d->setupUi(this);
   this->Superclass::setup();
   d->observe(vtkSlicerHandEyeCalibrationLogic::SafeDownCast(this->logic()));
+  d->panel = new HandEyeCalibrationPanel(d->logic, findNavigationHost(), this);
+  d->panelLayout->addWidget(d->panel);
   this->setBridge(nullptr);
   connect(d->publishResults, &QCheckBox::toggled, this, [d] { d->publish(); });
   connect(d->takeStylusTip, &QPushButton::clicked, this, [d] { d->takeTip(); });
@@ -131,9 +138,18 @@ void qSlicerHandEyeCalibrationModuleWidget::enter()
   Q_D(qSlicerHandEyeCalibrationModuleWidget);
   this->Superclass::enter();
   d->fillTransformNames();
+  if (d->panel)
+  {
+    d->panel->enterModule();
+  }
 }
 
 void qSlicerHandEyeCalibrationModuleWidget::exit()
 {
+  Q_D(qSlicerHandEyeCalibrationModuleWidget);
+  if (d->panel)
+  {
+    d->panel->exitModule();
+  }
   this->Superclass::exit();
 }

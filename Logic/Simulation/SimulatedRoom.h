@@ -30,6 +30,8 @@ struct RoomOptions
   Eigen::Isometry3d markerToCamera;  ///< p_Camera = markerToCamera * p_Marker, mm
   Eigen::Vector3d tip_Stylus;        ///< the ball's centre, mm
   Eigen::Isometry3d modelToPhantom;  ///< p_Phantom = modelToPhantom * p_Model, mm
+  /// Of Landmarks, mm: p_Phantom = modelToPhantom * landmark_Model.
+  std::vector<Eigen::Vector3d> landmarks_Model;
   double ballRadiusMm = 15;
   RoomMotion motion = RoomMotion::Tour;
   int placeCount = 15;                       ///< of Placements
@@ -103,7 +105,7 @@ private:
   std::unique_ptr<const Parts> parts_;
 };
 
-/// "pivot", "placements", "free", "tour"
+/// "pivot", "placements", "free", "landmarks", "tour"
 std::string toString(RoomMotion motion);
 
 }  // namespace handeye::simulation

@@ -121,6 +121,35 @@ std::vector<Eigen::Vector3d> readModelLandmarks(const Path& model)
   return std::move(list.points);
 }
 
+std::vector<std::string> readLandmarkNames(const Path& path)
+{
+  const auto trimmed = [](const std::string& text)
+  {
+    const std::size_t begin = text.find_first_not_of(" \t\r");
+    return begin == std::string::npos ? std::string() : text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+  };
+  std::vector<std::string> names;
+  std::string before, line;
+  std::istringstream text(io::readWholeFile(path, LargestFileBytes));
+  while (std::getline(text, line))
+  {
+    const std::size_t mark = line.find('#');
+    const std::string comment = mark == std::string::npos ? std::string() : trimmed(line.substr(mark + 1));
+    const std::string numbers = trimmed(line.substr(0, mark));
+    if (!numbers.empty() && numbers[0] == '{')
+    {
+      return {};
+    }
+    if (!numbers.empty())
+    {
+      names.push_back(comment.empty() ? before : comment);
+    }
+    before = numbers.empty() ? comment : std::string();
+  }
+  const bool allNamed = std::none_of(names.begin(), names.end(), [](const std::string& name) { return name.empty(); });
+  return allNamed ? names : std::vector<std::string>();
+}
+
 LandmarkLists readLandmarkLists(const Path& model, const Path& touched)
 {
   LandmarkLists lists{ readModelLandmarks(model), readLandmarks(touched).points };

@@ -39,6 +39,10 @@ struct LandmarkLists
 /// The model's landmarks alone; see readLandmarkLists().
 [[nodiscard]] std::vector<Eigen::Vector3d> readModelLandmarks(const std::filesystem::path& model);
 
+/// The landmarks' names: where a text file has a comment beside or in front of every point, these comments; empty otherwise, and for
+/// JSON. @throws io::FileError where the file cannot be read
+[[nodiscard]] std::vector<std::string> readLandmarkNames(const std::filesystem::path& path);
+
 /// Every rest with its place, its kind, its frames and its spread.
 nlohmann::json touchedLandmarksJson(const TouchedLandmarksResult& result);
 

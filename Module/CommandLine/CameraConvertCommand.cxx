@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CalibrationExport.h"
 #include "CommandOutput.h"
 #include "Commands.h"
 #include "ExportFormats.h"

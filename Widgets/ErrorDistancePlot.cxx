@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ErrorDistancePlot.h"
+
+#include "Look.h"
+
+#include <QEvent>
+#include <QLabel>
+#include <QPalette>
+#include <QStackedLayout>
+#include <QStringList>
+#include <QTimer>
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkAxis.h>
+#include <vtkBrush.h>
+#include <vtkChartLegend.h>
+#include <vtkChartXY.h>
+#include <vtkColor.h>
+#include <vtkContextScene.h>
+#include <vtkContextView.h>
+#include <vtkDoubleArray.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkPen.h>
+#include <vtkPlotPoints.h>
+#include <vtkRenderer.h>
+#include <vtkTable.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace handeye
+{
+
+namespace
+{
+
+vtkColor4ub toVtk(const QColor& color, int alpha = 255)
+{
+  return { static_cast<unsigned char>(color.red()), static_cast<unsigned char>(color.green()),
+    static_cast<unsigned char>(color.blue()), static_cast<unsigned char>(alpha) };
+}
+
+vtkSmartPointer<vtkTable> makeTable(const QVector<QPointF>& points, const char* yName)
+{
+  auto table = vtkSmartPointer<vtkTable>::New();
+  vtkNew<vtkDoubleArray> x, y;
+  x->SetName("distance");
+  y->SetName(yName);
+  for (const QPointF& point : points)
+  {
+    if (std::isfinite(point.x()) && std::isfinite(point.y()))
+    {
+      x->InsertNextValue(point.x());
+      y->InsertNextValue(point.y());
+    }
+  }
+  table->AddColumn(x);
+  table->AddColumn(y);
+  return table;
+}
+
+/// The axes' ends: all points and means, from zero error, with some air.
+struct Ranges
+{
+  double left = 0, right = 1, top = 1;
+  bool isEmpty = true;
+};
+
+Ranges rangesOf(const QVector<ErrorSeries>& series)
+{
+  Ranges ranges;
+  for (const ErrorSeries& one : series)
+  {
+    for (const QPointF& point : one.points)
+    {
+      if (std::isfinite(point.x()) && std::isfinite(point.y()))
+      {
+        ranges.left = ranges.isEmpty ? point.x() : std::min(ranges.left, point.x());
+        ranges.right = ranges.isEmpty ? point.x() : std::max(ranges.right, point.x());
+        ranges.top = std::max(ranges.isEmpty ? 0 : ranges.top, point.y());
+        ranges.isEmpty = false;
+      }
+    }
+  }
+  const double air = std::max(10.0, 0.05 * (ranges.right - ranges.left));
+  ranges.left = std::max(0.0, ranges.left - air);
+  ranges.right += air;
+  ranges.top = std::max(0.1, 1.12 * ranges.top);
+  return ranges;
+}
+
+}  // namespace
+
+class ErrorDistancePlot::Private
+{
+public:
+  void build(const ErrorDistancePlot& plot);
+  void style(const ErrorDistancePlot& plot);
+  void styleAxis(vtkAxis* axis, const QString& title, const QWidget& widget, double ratio);
+  void addSeries(const ErrorSeries& one, int index, const QPalette& palette, const Ranges& ranges, double ratio);
+
+  QStackedLayout* layout = nullptr;
+  QLabel* nothing = nullptr;
+  QVTKOpenGLNativeWidget* gl = nullptr;
+  QTimer renderTimer;
+  vtkNew<vtkGenericOpenGLRenderWindow> window;
+  vtkNew<vtkContextView> view;
+  vtkNew<vtkChartXY> chart;
+  QVector<ErrorSeries> series;
+};
+
+ErrorDistancePlot::ErrorDistancePlot(QWidget* parent)
+  : QWidget(parent)
+  , d(std::make_unique<Private>())
+{
+  this->setAccessibleName(tr("Projection error against distance"));
+  d->layout = new QStackedLayout(this);
+  d->nothing = new QLabel(tr("No errors to show yet"), this);
+  d->nothing->setAlignment(Qt::AlignCenter);
+  d->nothing->setWordWrap(true);
+  d->gl = new QVTKOpenGLNativeWidget(this);
+  d->gl->setRenderWindow(d->window);
+  d->gl->setAccessibleName(this->accessibleName());
+  d->gl->setToolTip(tr("Projection error (px) of each sample against its distance from the camera (mm); the line is the mean. "
+                       "Wheel: zoom. Drag: move."));
+  d->layout->addWidget(d->nothing);
+  d->layout->addWidget(d->gl);
+  d->view->SetRenderWindow(d->window);
+  d->view->GetScene()->AddItem(d->chart);
+  d->chart->SetShowLegend(true);
+  d->chart->SetHiddenAxisBorder(0);
+  d->renderTimer.setSingleShot(true);
+  d->renderTimer.setInterval(0);
+  connect(&d->renderTimer, &QTimer::timeout, this,
+    [this]
+    {
+      if (d->gl->isVisible() && d->gl->isValid())
+      {
+        d->window->Render();
+      }
+    });
+}
+
+ErrorDistancePlot::~ErrorDistancePlot() = default;
+
+void ErrorDistancePlot::setSeries(const QVector<ErrorSeries>& series)
+{
+  d->series = series;
+  d->build(*this);
+  d->renderTimer.start();
+}
+
+const QVector<ErrorSeries>& ErrorDistancePlot::series() const
+{
+  return d->series;
+}
+
+vtkChartXY* ErrorDistancePlot::chart() const
+{
+  return d->chart;
+}
+
+QSize ErrorDistancePlot::sizeHint() const
+{
+  return { 480, 320 };
+}
+
+QSize ErrorDistancePlot::minimumSizeHint() const
+{
+  return { 260, 180 };
+}
+
+void ErrorDistancePlot::Private::build(const ErrorDistancePlot& plot)
+{
+  chart->ClearPlots();
+  const Ranges ranges = rangesOf(series);
+  layout->setCurrentWidget(ranges.isEmpty ? static_cast<QWidget*>(nothing) : gl);
+  QStringList words;
+  const double ratio = plot.devicePixelRatioF();
+  for (int index = 0; index < series.size(); ++index)
+  {
+    this->addSeries(series[index], index, plot.palette(), ranges, ratio);
+    words += ErrorDistancePlot::tr("%1: mean %2, largest %3")
+               .arg(series[index].name, withUnit(series[index].errorPx.mean, 2, ErrorDistancePlot::tr("px")),
+                 withUnit(series[index].errorPx.maximum, 2, ErrorDistancePlot::tr("px")));
+  }
+  gl->setAccessibleDescription(words.join(QStringLiteral("; ")));
+  vtkAxis* bottom = chart->GetAxis(vtkAxis::BOTTOM);
+  vtkAxis* left = chart->GetAxis(vtkAxis::LEFT);
+  bottom->SetBehavior(vtkAxis::FIXED);
+  left->SetBehavior(vtkAxis::FIXED);
+  bottom->SetRange(ranges.left, ranges.right);
+  left->SetRange(0, ranges.top);
+  this->style(plot);
+}
+
+void ErrorDistancePlot::Private::addSeries(
+  const ErrorSeries& one, int index, const QPalette& palette, const Ranges& ranges, double ratio)
+{
+  const QColor color = one.color.isValid() ? one.color : seriesColor(index, palette);
+  if (one.errorPx.count > 0)
+  {
+    vtkPlot* mean = chart->AddPlot(vtkChart::LINE);
+    mean->SetInputData(makeTable({ { ranges.left, one.errorPx.mean }, { ranges.right, one.errorPx.mean } }, "mean"), 0, 1);
+    const QString title =
+      ErrorDistancePlot::tr("%1: mean %2").arg(one.name, withUnit(one.errorPx.mean, 2, ErrorDistancePlot::tr("px")));
+    mean->SetLabel(title.toStdString());
+    mean->GetPen()->SetColor(toVtk(color));
+    mean->GetPen()->SetWidth(float(1.6 * ratio));
+    mean->GetPen()->SetLineType(vtkPen::DASH_LINE);
+  }
+  static const int markers[] = { vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND, vtkPlotPoints::CROSS,
+    vtkPlotPoints::PLUS };
+  auto* points = vtkPlotPoints::SafeDownCast(chart->AddPlot(vtkChart::POINTS));
+  points->SetInputData(makeTable(one.points, "error"), 0, 1);
+  points->SetLabel(one.name.toStdString());
+  points->SetMarkerStyle(markers[std::size_t(index) % std::size(markers)]);
+  points->SetMarkerSize(float(8 * ratio));
+  points->GetPen()->SetColor(toVtk(color));
+  points->GetPen()->SetWidth(float(1.5 * ratio));
+  points->GetBrush()->SetColor(toVtk(color, 200));
+  points->SetTooltipLabelFormat(ErrorDistancePlot::tr("%1: %y px at %x mm").arg(one.name).toStdString());
+}
+
+void ErrorDistancePlot::Private::styleAxis(vtkAxis* axis, const QString& title, const QWidget& widget, double ratio)
+{
+  const QColor text = widget.palette().color(QPalette::Text);
+  const QColor grid = widget.palette().color(QPalette::Mid);
+  const int size = int(std::lround(widget.fontInfo().pixelSize() * ratio));
+  axis->SetTitle(title.toStdString());
+  for (vtkTextProperty* property : { axis->GetTitleProperties(), axis->GetLabelProperties() })
+  {
+    property->SetColor(text.redF(), text.greenF(), text.blueF());
+    property->SetFontSize(size);
+    property->SetBold(false);
+  }
+  axis->GetPen()->SetColor(toVtk(text));
+  axis->GetPen()->SetWidth(float(ratio));
+  axis->GetGridPen()->SetColor(toVtk(grid, 120));
+  axis->GetGridPen()->SetWidth(float(ratio));
+}
+
+void ErrorDistancePlot::Private::style(const ErrorDistancePlot& plot)
+{
+  const QPalette& palette = plot.palette();
+  const double ratio = plot.devicePixelRatioF();
+  const QColor ground = palette.color(QPalette::Base);
+  view->GetRenderer()->SetBackground(ground.redF(), ground.greenF(), ground.blueF());
+  chart->GetBackgroundBrush()->SetColor(toVtk(ground));
+  this->styleAxis(chart->GetAxis(vtkAxis::BOTTOM), ErrorDistancePlot::tr("Distance from the camera [mm]"), plot, ratio);
+  this->styleAxis(chart->GetAxis(vtkAxis::LEFT), ErrorDistancePlot::tr("Projection error [px]"), plot, ratio);
+  vtkChartLegend* legend = chart->GetLegend();
+  legend->SetHorizontalAlignment(vtkChartLegend::RIGHT);
+  legend->SetVerticalAlignment(vtkChartLegend::TOP);
+  legend->SetLabelSize(int(std::lround(plot.fontInfo().pixelSize() * ratio)));
+  const QColor text = palette.color(QPalette::Text);
+  legend->GetLabelProperties()->SetColor(text.redF(), text.greenF(), text.blueF());
+  legend->GetBrush()->SetColor(toVtk(ground, 220));
+  legend->GetPen()->SetColor(toVtk(palette.color(QPalette::Mid)));
+}
+
+void ErrorDistancePlot::changeEvent(QEvent* event)
+{
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange)
+  {
+    d->build(*this);
+    d->renderTimer.start();
+  }
+}
+
+void ErrorDistancePlot::showEvent(QShowEvent* event)
+{
+  QWidget::showEvent(event);
+  // On a screen of another device pixel ratio sizes are others.
+  d->build(*this);
+  d->renderTimer.start();
+}
+
+}  // namespace handeye

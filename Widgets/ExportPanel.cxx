@@ -1,0 +1,279 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ExportPanel.h"
+
+#include "CalibrationExport.h"
+#include "Look.h"
+#include "ui_ExportPanel.h"
+
+#include <QCheckBox>
+#include <QDesktopServices>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QUrl>
+
+#include <vector>
+
+namespace handeye
+{
+
+namespace
+{
+
+QString fromPath(const std::filesystem::path& path)
+{
+  return QString::fromStdString(path.string());
+}
+
+QString listItem(const QString& path, const QString& what)
+{
+  const QString link = QString::fromUtf8(QUrl::fromLocalFile(path).toEncoded());
+  return QStringLiteral("<p style=\"margin:2px 0\"><a href=\"%1\">%2</a> – %3</p>")
+    .arg(link, QFileInfo(path).fileName().toHtmlEscaped(), what.toHtmlEscaped());
+}
+
+}  // namespace
+
+class ExportPanel::Private
+{
+public:
+  explicit Private(ExportPanel& panel)
+    : q(panel)
+  {
+  }
+
+  void addFormats();
+  void updateButtons();
+  void showMessage(const QString& text, Level level);
+  bool exportOne(const ExportFormat& format, const QDir& target, QStringList& problems, QStringList& warnings);
+  bool hasCalibration() const { return !sources.calibration.empty(); }
+  QString folder() const { return ui.folderEdit->text().trimmed(); }
+
+  ExportPanel& q;
+  Ui::ExportPanel ui;
+  std::vector<QCheckBox*> boxes;  ///< one per exportFormats()
+  ExportSources sources;
+  QStringList written;
+  bool reportEnabled = false;
+};
+
+void ExportPanel::Private::addFormats()
+{
+  int index = 0;
+  for (const ExportFormat& format : exportFormats())
+  {
+    // Names of programs and formats are not translated.
+    auto* box = new QCheckBox(QString::fromStdString(format.name), ui.formatsBox);
+    box->setToolTip(ExportPanel::tr("Writes %1").arg(QString::fromStdString(format.fileName)) +
+      (format.isOneCamera ? QString() : ExportPanel::tr("; with the stylus, the phantom and both eyes where they are known")));
+    box->setChecked(true);
+    ui.formatsLayout->addWidget(box, index / 2, index % 2);
+    connect(box, &QCheckBox::toggled, &q, [this] { this->updateButtons(); });
+    boxes.push_back(box);
+    ++index;
+  }
+}
+
+void ExportPanel::Private::updateButtons()
+{
+  const bool anyFormat = !q.formats().isEmpty();
+  ui.exportButton->setEnabled(this->hasCalibration() && anyFormat && !this->folder().isEmpty());
+  ui.reportButton->setEnabled(reportEnabled && !this->folder().isEmpty());
+}
+
+void ExportPanel::Private::showMessage(const QString& text, Level level)
+{
+  const int side = q.fontMetrics().height() + 2;
+  ui.messageIcon->setVisible(!text.isEmpty());
+  ui.messageLabel->setVisible(!text.isEmpty());
+  ui.messageIcon->setPixmap(levelIcon(level).pixmap(q.window()->windowHandle(), QSize(side, side)));
+  ui.messageLabel->setText(text);
+  QPalette palette = q.palette();
+  palette.setColor(QPalette::WindowText, levelColor(level, palette));
+  ui.messageLabel->setPalette(palette);
+}
+
+/// One format that cannot hold this camera does not keep the others from being written.
+bool ExportPanel::Private::exportOne(const ExportFormat& format, const QDir& target, QStringList& problems, QStringList& warnings)
+{
+  try
+  {
+    const std::filesystem::path file = target.filePath(QString::fromStdString(format.fileName)).toStdString();
+    const ExportResult result = exportCalibration(sources, format.word, file);
+    for (const std::filesystem::path& path : result.files)
+    {
+      q.addWrittenFile(fromPath(path), QString::fromStdString(format.name));
+    }
+    for (const std::string& warning : result.warnings)
+    {
+      const QString sentence = QString::fromStdString(warning);
+      if (!warnings.contains(sentence))
+      {
+        warnings += sentence;
+      }
+    }
+    return true;
+  }
+  catch (const std::exception& error)
+  {
+    problems += QStringLiteral("%1: %2").arg(QString::fromStdString(format.name), QString::fromUtf8(error.what()));
+    return false;
+  }
+}
+
+ExportPanel::ExportPanel(QWidget* parent)
+  : QWidget(parent)
+  , d(std::make_unique<Private>(*this))
+{
+  d->ui.setupUi(this);
+  d->addFormats();
+  d->ui.folderButton->setIcon(icon(QStringLiteral("open")));
+  d->ui.exportButton->setIcon(icon(QStringLiteral("export")));
+  d->ui.reportButton->setIcon(icon(QStringLiteral("report")));
+  connect(d->ui.folderEdit, &QLineEdit::textChanged, this, [this] { d->updateButtons(); });
+  connect(d->ui.folderButton, &QPushButton::clicked, this,
+    [this]
+    {
+      const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder to export to"), this->folder());
+      if (!folder.isEmpty())
+      {
+        this->setFolder(folder);
+      }
+    });
+  connect(d->ui.exportButton, &QPushButton::clicked, this, &ExportPanel::exportNow);
+  connect(d->ui.reportButton, &QPushButton::clicked, this, [this] { emit reportRequested(this->folder()); });
+  connect(d->ui.allButton, &QPushButton::clicked, this,
+    [this]
+    {
+      for (QCheckBox* box : d->boxes)
+      {
+        box->setChecked(true);
+      }
+    });
+  connect(d->ui.noneButton, &QPushButton::clicked, this, [this] { this->setFormats({}); });
+  connect(d->ui.writtenBrowser, &QTextBrowser::anchorClicked, this, [](const QUrl& link) { QDesktopServices::openUrl(link); });
+  this->setReportEnabled(false);
+  this->setSources({});
+}
+
+ExportPanel::~ExportPanel() = default;
+
+void ExportPanel::setSources(const ExportSources& sources)
+{
+  d->sources = sources;
+  if (d->hasCalibration())
+  {
+    d->showMessage(QString(), Level::Info);
+  }
+  else
+  {
+    d->showMessage(tr("There is no calibration to export yet."), Level::Info);
+  }
+  d->updateButtons();
+}
+
+void ExportPanel::setFolder(const QString& folder)
+{
+  d->ui.folderEdit->setText(QDir::toNativeSeparators(folder));
+}
+
+QString ExportPanel::folder() const
+{
+  return d->folder();
+}
+
+QStringList ExportPanel::formats() const
+{
+  QStringList words;
+  for (std::size_t index = 0; index < d->boxes.size(); ++index)
+  {
+    if (d->boxes[index]->isChecked())
+    {
+      words += QString::fromStdString(exportFormats()[index].word);
+    }
+  }
+  return words;
+}
+
+void ExportPanel::setFormats(const QStringList& formats)
+{
+  for (std::size_t index = 0; index < d->boxes.size(); ++index)
+  {
+    d->boxes[index]->setChecked(formats.contains(QString::fromStdString(exportFormats()[index].word)));
+  }
+}
+
+QStringList ExportPanel::writtenFiles() const
+{
+  return d->written;
+}
+
+void ExportPanel::setReportEnabled(bool enabled, const QString& reason)
+{
+  d->reportEnabled = enabled;
+  d->ui.reportButton->setToolTip(enabled ? tr("Writes the report of the validation (HTML) into the folder")
+      : reason.isEmpty()                 ? tr("A report needs a validation")
+                                         : reason);
+  d->updateButtons();
+}
+
+void ExportPanel::addWrittenFile(const QString& path, const QString& what)
+{
+  d->written += path;
+  d->ui.writtenBrowser->append(listItem(path, what));
+}
+
+void ExportPanel::showError(const QString& sentence)
+{
+  d->showMessage(sentence, Level::Error);
+}
+
+bool ExportPanel::exportNow()
+{
+  d->written.clear();
+  d->ui.writtenBrowser->clear();
+  const QDir target(this->folder());
+  if (!d->hasCalibration())
+  {
+    d->showMessage(tr("There is no calibration to export yet."), Level::Error);
+    return false;
+  }
+  if (this->folder().isEmpty() || !QDir().mkpath(target.absolutePath()))
+  {
+    d->showMessage(tr("The folder %1 cannot be made.").arg(target.absolutePath()), Level::Error);
+    return false;
+  }
+  QStringList problems, warnings;
+  int count = 0;
+  const QStringList wanted = this->formats();
+  for (const ExportFormat& format : exportFormats())
+  {
+    if (wanted.contains(QString::fromStdString(format.word)))
+    {
+      count += d->exportOne(format, target, problems, warnings) ? 1 : 0;
+    }
+  }
+  const QString done = tr("%n format(s) written to %1.", nullptr, count).arg(QDir::toNativeSeparators(target.absolutePath()));
+  if (!problems.isEmpty())
+  {
+    d->showMessage((problems + QStringList(done)).join(QLatin1Char('\n')), Level::Error);
+  }
+  else
+  {
+    d->showMessage(done, Level::Good);
+  }
+  if (!warnings.isEmpty())
+  {
+    QString notes = tr("Notes:");
+    for (const QString& warning : warnings)
+    {
+      notes += QStringLiteral("<br>• ") + warning.toHtmlEscaped();
+    }
+    d->ui.writtenBrowser->append(QStringLiteral("<p style=\"margin-top:8px\">%1</p>").arg(notes));
+  }
+  emit exported(d->written);
+  return problems.isEmpty();
+}
+
+}  // namespace handeye

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Look.h"
+
+#include <QFile>
+#include <QLocale>
+#include <QPalette>
+
+#include <cmath>
+
+/// The icons are part of a static library; without this the linker leaves them out. Not to be in a namespace: rcc's function is not.
+static void initializeIcons()
+{
+  Q_INIT_RESOURCE(HandEyeWidgets);
+}
+
+namespace handeye
+{
+
+bool isDark(const QPalette& palette)
+{
+  return qGray(palette.color(QPalette::Window).rgb()) < 128;
+}
+
+QColor levelColor(Level level, const QPalette& palette)
+{
+  const bool dark = isDark(palette);
+  switch (level)
+  {
+    case Level::Good:
+      return dark ? QColor(0x5f, 0xd3, 0x8a) : QColor(0x06, 0x74, 0x3a);
+    case Level::Warning:
+      return dark ? QColor(0xff, 0xca, 0x5c) : QColor(0x85, 0x56, 0x00);
+    case Level::Error:
+      return dark ? QColor(0xff, 0x8f, 0x85) : QColor(0xb3, 0x26, 0x1e);
+    case Level::Info:
+      break;
+  }
+  return palette.color(QPalette::WindowText);
+}
+
+QColor seriesColor(int index, const QPalette& palette)
+{
+  // Okabe and Ito's colours, darker or lighter by the ground.
+  static const QColor onLight[] = { QColor(0x00, 0x5f, 0x9e), QColor(0xc2, 0x4a, 0x00), QColor(0x00, 0x7a, 0x5a),
+    QColor(0xa6, 0x3d, 0x80), QColor(0x7a, 0x5c, 0x00), QColor(0x45, 0x45, 0x45) };
+  static const QColor onDark[] = { QColor(0x56, 0xb4, 0xe9), QColor(0xf5, 0x8a, 0x3c), QColor(0x35, 0xd0, 0xa5),
+    QColor(0xe8, 0x9b, 0xc8), QColor(0xf0, 0xe4, 0x42), QColor(0xd0, 0xd0, 0xd0) };
+  constexpr int count = int(std::size(onLight));
+  const int wrapped = ((index % count) + count) % count;
+  return isDark(palette) ? onDark[wrapped] : onLight[wrapped];
+}
+
+QIcon icon(const QString& name)
+{
+  initializeIcons();
+  const QString path = QStringLiteral(":/HandEye/Icons/%1.svg").arg(name);
+  return QFile::exists(path) ? QIcon(path) : QIcon();
+}
+
+QIcon levelIcon(Level level)
+{
+  switch (level)
+  {
+    case Level::Good:
+      return icon(QStringLiteral("ok"));
+    case Level::Warning:
+      return icon(QStringLiteral("warning"));
+    case Level::Error:
+      return icon(QStringLiteral("error"));
+    case Level::Info:
+      break;
+  }
+  return icon(QStringLiteral("info"));
+}
+
+QString withUnit(double value, int digits, const QString& unit)
+{
+  if (!std::isfinite(value))
+  {
+    return QString(QChar(0x2013));
+  }
+  // A no-break space: the unit stays with its number.
+  return QLocale().toString(value, 'f', digits) + QChar(0x00a0) + unit;
+}
+
+}  // namespace handeye

@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VideoView.h"
+
+#include "VideoMarks.h"
+#include "vtkHandEyeOverlayPipeline.h"
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QTimer>
+#include <QVTKInteractor.h>
+#include <QVTKOpenGLNativeWidget.h>
+#include <QVariantAnimation>
+#include <opencv2/core.hpp>
+#include <vtkCallbackCommand.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+
+#include <algorithm>
+
+namespace handeye
+{
+
+class VideoView::Private
+{
+public:
+  explicit Private(VideoView& view)
+    : gl(new QVTKOpenGLNativeWidget(&view))
+    , marks(new VideoMarks([this](const QPointF& point_Image_Px) { return this->toWidget(point_Image_Px); }, &view))
+  {
+  }
+
+  std::optional<QPointF> toWidget(const QPointF& point_Image_Px) const
+  {
+    const double image[2] = { point_Image_Px.x(), point_Image_Px.y() };
+    double display[2];
+    if (!this->pipeline->ImageToDisplay(image, display))
+    {
+      return {};
+    }
+    // A display pixel's coordinate is its centre's; rows count from below.
+    const double ratio = this->gl->devicePixelRatioF();
+    const double height = this->window->GetSize()[1];
+    return QPointF((display[0] + 0.5) / ratio, (height - display[1] - 0.5) / ratio);
+  }
+
+  std::optional<QPointF> toImage(const QPointF& point_Widget) const
+  {
+    const double ratio = this->gl->devicePixelRatioF();
+    const double height = this->window->GetSize()[1];
+    const double display[2] = { point_Widget.x() * ratio - 0.5, height - point_Widget.y() * ratio - 0.5 };
+    double image[2];
+    return this->pipeline->DisplayToImage(display, image) ? std::optional<QPointF>(QPointF(image[0], image[1])) : std::nullopt;
+  }
+
+  /// Marks are drawn again when the picture has moved below them. Not after every rendering: that would ask for the next one.
+  void followPicture()
+  {
+    const std::optional<QPointF> first = this->toWidget({ 0, 0 });
+    const std::optional<QPointF> second = this->toWidget({ 1000, 1000 });
+    if (first != this->mappedFirst || second != this->mappedSecond)
+    {
+      this->mappedFirst = first;
+      this->mappedSecond = second;
+      this->marks->update();
+    }
+  }
+
+  QVTKOpenGLNativeWidget* gl;
+  VideoMarks* marks;
+  vtkNew<vtkGenericOpenGLRenderWindow> window;
+  vtkNew<vtkHandEyeOverlayPipeline> pipeline;
+  vtkNew<vtkCallbackCommand> rendered;
+  QTimer renderTimer;
+  QVariantAnimation flash;
+  std::optional<QPointF> mappedFirst, mappedSecond;
+};
+
+VideoView::VideoView(QWidget* parent)
+  : QWidget(parent)
+  , d(std::make_unique<Private>(*this))
+{
+  this->setAccessibleName(tr("Video"));
+  this->setMinimumSize(160, 120);
+  d->gl->setRenderWindow(d->window);
+  // Mouse and keys are the view's: nothing turns the video's camera.
+  d->window->GetInteractor()->SetInteractorStyle(nullptr);
+  d->gl->setFocusPolicy(Qt::StrongFocus);
+  d->gl->installEventFilter(this);
+  d->gl->setAccessibleName(tr("Video"));
+  this->setFocusProxy(d->gl);
+  d->pipeline->AttachTo(d->window);
+
+  d->rendered->SetClientData(d.get());
+  d->rendered->SetCallback([](vtkObject*, unsigned long, void* self, void*) { static_cast<Private*>(self)->followPicture(); });
+  d->window->AddObserver(vtkCommand::EndEvent, d->rendered);
+
+  d->renderTimer.setSingleShot(true);
+  d->renderTimer.setInterval(0);
+  connect(&d->renderTimer, &QTimer::timeout, this,
+    [this]
+    {
+      if (this->isVisible() && d->gl->isValid())
+      {
+        d->window->Render();
+      }
+    });
+
+  d->flash.setDuration(450);
+  d->flash.setStartValue(1.0);
+  d->flash.setEndValue(0.0);
+  connect(&d->flash, &QVariantAnimation::valueChanged, this,
+    [this](const QVariant& value)
+    {
+      d->marks->flash = value.toDouble();
+      d->marks->update();
+    });
+  this->setPlaceholderText(tr("No video"));
+  d->marks->raise();
+}
+
+VideoView::~VideoView()
+{
+  d->window->RemoveObserver(d->rendered);
+  d->pipeline->AttachTo(nullptr);
+}
+
+void VideoView::setFrame(const cv::Mat& bgr)
+{
+  d->pipeline->SetVideoFrame(bgr);
+  const QSize size(bgr.cols, bgr.rows);
+  if (size != d->marks->frameSize)
+  {
+    d->marks->frameSize = size;
+    d->marks->update();
+  }
+  this->requestRender();
+}
+
+bool VideoView::hasFrame() const
+{
+  return !d->marks->frameSize.isEmpty();
+}
+
+QSize VideoView::frameSize() const
+{
+  return d->marks->frameSize;
+}
+
+void VideoView::setPlaceholderText(const QString& text)
+{
+  d->marks->placeholder = text;
+  d->marks->update();
+}
+
+vtkHandEyeOverlayPipeline* VideoView::pipeline() const
+{
+  return d->pipeline;
+}
+
+vtkRenderWindow* VideoView::renderWindow() const
+{
+  return d->window;
+}
+
+void VideoView::requestRender()
+{
+  if (!d->renderTimer.isActive())
+  {
+    d->renderTimer.start();
+  }
+}
+
+void VideoView::setDetection(const std::optional<DetectionMark>& detection)
+{
+  d->marks->detection = detection;
+  d->marks->update();
+}
+
+void VideoView::setGhostBall(const std::optional<GhostBall>& ghost)
+{
+  d->marks->ghost = ghost;
+  d->marks->update();
+}
+
+void VideoView::setBanner(const QString& text, Level level)
+{
+  if (text == d->marks->banner && level == d->marks->bannerLevel)
+  {
+    return;
+  }
+  d->marks->banner = text;
+  d->marks->bannerLevel = level;
+  d->gl->setAccessibleDescription(text);
+  d->marks->update();
+}
+
+QString VideoView::banner() const
+{
+  return d->marks->banner;
+}
+
+void VideoView::flash()
+{
+  d->flash.stop();
+  d->flash.start();
+}
+
+std::optional<QPointF> VideoView::imageToWidget(const QPointF& point_Image_Px) const
+{
+  return this->hasFrame() ? d->toWidget(point_Image_Px) : std::nullopt;
+}
+
+std::optional<QPointF> VideoView::widgetToImage(const QPointF& point_Widget) const
+{
+  return this->hasFrame() ? d->toImage(point_Widget) : std::nullopt;
+}
+
+QImage VideoView::snapshot()
+{
+  QImage image = d->gl->grabFramebuffer();
+  image.setDevicePixelRatio(d->gl->devicePixelRatioF());
+  QPainter painter(&image);
+  d->marks->draw(painter);
+  return image;
+}
+
+QSize VideoView::sizeHint() const
+{
+  return { 640, 480 };
+}
+
+bool VideoView::eventFilter(QObject* watched, QEvent* event)
+{
+  if (watched != d->gl)
+  {
+    return QWidget::eventFilter(watched, event);
+  }
+  switch (event->type())
+  {
+    case QEvent::MouseButtonPress:
+    {
+      const auto* mouse = static_cast<QMouseEvent*>(event);
+      const std::optional<QPointF> point = this->widgetToImage(mouse->localPos());
+      // Pixel centres are whole numbers: the picture begins half a pixel before the first.
+      const QRectF picture(QPointF(-0.5, -0.5), QSizeF(this->frameSize()));
+      if (mouse->button() == Qt::LeftButton && point && picture.contains(*point))
+      {
+        emit imageClicked(*point);
+      }
+      return true;
+    }
+    case QEvent::KeyPress:
+    {
+      const auto* key = static_cast<QKeyEvent*>(event);
+      if (key->key() == Qt::Key_Tab || key->key() == Qt::Key_Backtab)
+      {
+        return false;
+      }
+      emit keyPressed(key->key(), key->modifiers());
+      return true;
+    }
+    case QEvent::MouseButtonRelease:
+    case QEvent::MouseButtonDblClick:
+    case QEvent::MouseMove:
+    case QEvent::KeyRelease:
+      return true;
+    case QEvent::Wheel:
+      event->ignore();  // the page around scrolls
+      return true;
+    default:
+      return false;
+  }
+}
+
+void VideoView::resizeEvent(QResizeEvent* event)
+{
+  QWidget::resizeEvent(event);
+  d->gl->setGeometry(this->rect());
+  d->marks->setGeometry(this->rect());
+}
+
+void VideoView::changeEvent(QEvent* event)
+{
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange)
+  {
+    d->marks->update();
+  }
+}
+
+void VideoView::showEvent(QShowEvent* event)
+{
+  QWidget::showEvent(event);
+  this->requestRender();
+}
+
+}  // namespace handeye
