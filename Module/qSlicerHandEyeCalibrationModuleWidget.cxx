@@ -12,7 +12,6 @@
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
-#include <QLabel>
 #include <QSignalBlocker>
 
 #include <vector>

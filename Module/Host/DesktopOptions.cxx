@@ -33,6 +33,7 @@ void addOptions(QCommandLineParser& parser)
     { QStringLiteral("screenshot"), tr("Writes a picture of the window into this file (.png, .jpg) after the start."), tr("file") },
     { QStringLiteral("screenshot-delay"), tr("Waits so long before; 1.5 unless said otherwise."), tr("seconds") },
     { QStringLiteral("no-splash"), tr("Shows no picture while starting.") },
+    { QStringLiteral("check-display"), tr("Ends at once: with 0 if there is a display that windows can be opened on.") },
     { QStringLiteral("exit-after-startup"), tr("Ends after the modules are loaded and the screenshot, if any, is written.") },
   });
 }
@@ -124,6 +125,7 @@ DesktopOptions DesktopOptions::parse(const QStringList& arguments)
   options.demonstration = parser.isSet(QStringLiteral("demo"));
   options.noSplash = parser.isSet(QStringLiteral("no-splash"));
   options.exitAfterStartup = parser.isSet(QStringLiteral("exit-after-startup"));
+  options.checkDisplay = parser.isSet(QStringLiteral("check-display"));
   options.files = parser.positionalArguments();
   const QString problem = readValues(parser, options);
   return problem.isEmpty() ? options : refused(problem);

@@ -31,6 +31,7 @@ struct DesktopOptions
   bool demonstration = false;
   bool noSplash = false;
   bool exitAfterStartup = false;
+  bool checkDisplay = false;  ///< only whether windows can be opened
   QStringList files;  ///< to open once the module is there
 
   /// @param arguments as main() has them, the program's name first

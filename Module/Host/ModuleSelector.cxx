@@ -75,8 +75,8 @@ ModuleSelector::ModuleSelector(QWidget* parent)
 
 void ModuleSelector::makeHistoryActions()
 {
-  this->Back->setShortcut(QKeySequence(Qt::ALT + Qt::Key_Left));
-  this->Forward->setShortcut(QKeySequence(Qt::ALT + Qt::Key_Right));
+  this->Back->setShortcut(QKeySequence(Qt::CTRL + Qt::Key_PageUp));
+  this->Forward->setShortcut(QKeySequence(Qt::CTRL + Qt::Key_PageDown));
   this->Find->setShortcut(QKeySequence::Find);
   this->HistoryButton->setObjectName(QStringLiteral("ModuleHistory"));
   this->HistoryButton->setMenu(this->HistoryMenu);

@@ -159,6 +159,10 @@ int main(int argc, char** argv)
   QApplication application(argc, argv);
   desktop::finishApplication();
   const DesktopOptions options = DesktopOptions::parse(application.arguments());
+  if (options.checkDisplay)
+  {
+    return 0;
+  }
   if (options.action == DesktopOptions::Action::Refuse)
   {
     return refuse(options.message);
