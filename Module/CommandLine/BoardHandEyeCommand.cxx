@@ -101,8 +101,10 @@ int runBoardHandEye(BoardHandEyeArguments& arguments)
   {
     arguments.trackedBoard.boardToBoardMarker = readPhantomRegistration(arguments.boardRegistration);
   }
-  BoardCalibration calibration{ {}, methodOf(arguments.method), board, cameraForRecording(file.camera, recording), {}, {},
-    arguments.tools, {}, {} };
+  BoardCalibration calibration(cameraForRecording(file.camera, recording));
+  calibration.method = methodOf(arguments.method);
+  calibration.board = board;
+  calibration.tools = arguments.tools;
   if (!arguments.stylus.empty())
   {
     calibration.tip_Stylus = readStylusTip(arguments.stylus);
