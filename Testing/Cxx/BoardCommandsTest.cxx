@@ -113,9 +113,9 @@ TEST_F(BoardCommands, PrintedBoard_HasItsTrueSize)
 {
   const CommandResult picture = run({ "camera", "board", "chessboard:7x5:20", "--dpi", "254", "--json", "-o", file("chess.png") });
   ASSERT_EQ(picture.exitCode, 0) << picture.err;
-  EXPECT_EQ(picture.json()["paper"], "A4 portrait");
+  EXPECT_EQ(picture.json()["paper"], "A4 landscape");
   const cv::Mat image = cv::imread(file("chess.png"), cv::IMREAD_GRAYSCALE);
-  ASSERT_EQ(image.size(), cv::Size(2100, 2970)) << "ten pixels a millimetre";
+  ASSERT_EQ(image.size(), cv::Size(2970, 2100)) << "ten pixels a millimetre";
   // The rows of the first squares: black ones are 200 px wide.
   std::vector<int> lengths;
   int row = 0;

@@ -119,7 +119,7 @@ TEST(BoardDetection, EachBoard_IsFoundToHundredthsOfAPixel)
       ASSERT_TRUE(detection.isUsable()) << text << " at " << tilt.transpose() << ": " << detection.message;
       ++found;
       EXPECT_GE(
-        int(detection.ids.size()), board.kind == BoardDescription::Kind::Charuco ? board.pointCount() * 3 / 4 : board.pointCount())
+        int(detection.ids.size()), board.kind == BoardDescription::Kind::Charuco ? board.pointCount() * 3 / 5 : board.pointCount())
         << text;
       double error = rmsPx(detection, camera, boardToCamera);
       if (board.looksTheSameTurned())
@@ -133,8 +133,8 @@ TEST(BoardDetection, EachBoard_IsFoundToHundredthsOfAPixel)
       EXPECT_LT(detection.edgeWidthPx, 4) << text;
     }
     std::cout << text << ": " << worst << " px RMS at worst, " << found << " found\n";
-    // Circles have the shift of a circle's centre in them, which calibrateLens() takes out.
-    EXPECT_LT(worst, board.kind == BoardDescription::Kind::Circles ? 0.3 : 0.1) << text;
+    // Corners have a window as wide as the white around a marker: 4 px of the AprilTags.
+    EXPECT_LT(worst, board.kind == BoardDescription::Kind::Charuco ? 0.16 : 0.13) << text;
   }
 }
 
@@ -152,7 +152,7 @@ TEST(BoardDetection, CharucoHalfOutside_IsUsed)
   EXPECT_LT(rmsPx(detection, camera, boardToCamera), 0.1);
   const BoardPose pose = estimateBoardPose(detection.points_Board, detection.points_Image, camera);
   ASSERT_TRUE(pose.isUsable()) << pose.message;
-  EXPECT_TRUE(rigid3dNear(pose.boardToCamera, boardToCamera, 0.004, 0.6));
+  EXPECT_TRUE(rigid3dNear(pose.boardToCamera, boardToCamera, 0.006, 0.6));
 }
 
 TEST(BoardDetection, OtherBoards_AreNotTakenForThisOne)
