@@ -63,13 +63,15 @@ PrintedBoard choosePage(const BoardPattern& pattern, const std::string& wanted)
       continue;
     }
     isKnown = true;
-    if (needed.x() <= paper.widthMm && needed.y() <= paper.heightMm)
+    const PrintedBoard upright{ paper.widthMm, paper.heightMm, std::string(paper.name) + " portrait" };
+    const PrintedBoard lying{ paper.heightMm, paper.widthMm, std::string(paper.name) + " landscape" };
+    const bool isWide = needed.x() > needed.y();
+    for (const PrintedBoard& page : { isWide ? lying : upright, isWide ? upright : lying })
     {
-      return { paper.widthMm, paper.heightMm, std::string(paper.name) + " portrait" };
-    }
-    if (needed.x() <= paper.heightMm && needed.y() <= paper.widthMm)
-    {
-      return { paper.heightMm, paper.widthMm, std::string(paper.name) + " landscape" };
+      if (needed.x() <= page.pageWidthMm && needed.y() <= page.pageHeightMm)
+      {
+        return page;
+      }
     }
   }
   if (!isKnown)

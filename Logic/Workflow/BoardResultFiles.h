@@ -26,6 +26,11 @@ nlohmann::json repetitionJson(const LensRepetition& repetition);
 /// A board-based calibration and all that belongs to it.
 struct BoardCalibration
 {
+  explicit BoardCalibration(const CameraModel& ofCamera)
+    : camera(ofCamera)
+  {
+  }
+
   BoardHandEyeResult result;
   BoardHandEyeOptions::Method method = BoardHandEyeOptions::Method::Daniilidis;
   BoardDescription board;
