@@ -20,8 +20,11 @@ struct StudyOptions
   TrialSize size;                 ///< samples and views of a repetition
   double trackingSigmaMm = 0.12;  ///< of every pose of every marker, per axis
   double trackingSigmaDeg = 0.025;
-  bool isNoiseFree = false;          ///< neither tracker nor features have noise: every method must find the truth
-  int noisePictures = 20;            ///< of ball and board each, from which a camera's feature noise is measured
+  double lensFocalShare =
+    0;                       ///< error of the lens that all methods are told, anew in each repetition: the focal length, as a share
+  double lensCenterPx = 0;   ///< and the principal point, px per axis
+  bool isNoiseFree = false;  ///< neither tracker nor features have noise: every method must find the truth
+  int noisePictures = 20;    ///< of ball and board each, from which a camera's feature noise is measured
   int subsetRepetitions = 20;        ///< the first so many repetitions also give random subsets of 3 to 30 samples
   int renderedRepetitions = 0;       ///< repetitions whose features are really found in rendered pictures, besides the others
   double branchAndBoundSec = 2;      ///< time limit of one; 0 leaves it out

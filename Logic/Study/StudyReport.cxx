@@ -109,6 +109,16 @@ report::Table setUpTable(const StudyResult& result)
   return table;
 }
 
+std::string lensWords(const StudyOptions& options)
+{
+  if (options.lensFocalShare == 0 && options.lensCenterPx == 0)
+  {
+    return "The lens is known exactly.";
+  }
+  return "The lens that all methods are told is off, anew in each repetition, by " + fixedDigits(100 * options.lensFocalShare, 2) +
+    " % of the focal length and " + fixedDigits(options.lensCenterPx, 1) + " px of the principal point per axis.";
+}
+
 std::string noiseWords(const StudyResult& result)
 {
   const StudyOptions& options = result.options;
@@ -119,9 +129,10 @@ std::string noiseWords(const StudyResult& result)
   return text +
     (options.isNoiseFree ? "No noise at all."
                          : "Every pose of every marker has noise of " + fixedDigits(options.trackingSigmaMm, 3) + " mm and " +
-          fixedDigits(options.trackingSigmaDeg, 3) +
-          " degrees per axis, the same for ball and board. The lens is known exactly, and so is the board on its own marker, which "
-          "favours the methods with a board. The branch and bound had " +
+          fixedDigits(options.trackingSigmaDeg, 3) + " degrees per axis, the same for ball and board. " + lensWords(options) +
+          " The board is looked at from up to " + fixedDigits(options.size.boardTiltDeg, 0) +
+          " degrees off, the camera turned by up to " + fixedDigits(options.size.boardRollDeg, 0) +
+          " degrees to either side; its print, and its place on its own marker, are known exactly. The branch and bound had " +
           significantDigits(options.branchAndBoundSec, 3) + " s a capture.");
 }
 

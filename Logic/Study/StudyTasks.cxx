@@ -76,10 +76,11 @@ private:
     }
   }
 
-  HandEyeCalibrationOptions ballOptions(const StudyCameraResult& camera, const StudyTrial& trial) const
+  HandEyeCalibrationOptions ballOptions(const StudyCameraResult& camera, const StudyTrial& trial, bool isRendered) const
   {
     HandEyeCalibrationOptions options;
     options.tipCovariance_Stylus = trial.tipCovariance_Stylus;
+    options.rejectOutliers = isRendered;  // projected features are never wrong, and the search for such is most of the time
     if (!options_.isNoiseFree)
     {
       options.segmentationSigmaPx = camera.noise.ballSigmaPx;
@@ -96,13 +97,13 @@ private:
     return options;
   }
 
-  std::vector<MethodResult> compare(const StudyCameraResult& camera, const StudyEye& eye, const StudyTrial& trial,
+  std::vector<MethodResult> compare(const StudyCameraResult& camera, const StudyTrial& trial, bool isRendered,
     bool withBranchAndBound, const ComparisonOptions& options)
   {
-    std::vector<ComparedMethod> methods = ballMethods({ trial.ball }, eye.camera, ballOptions(camera, trial));
-    const std::vector<ComparedMethod> classical = boardMethods({ trial.board }, eye.camera, boardOptions(withBranchAndBound));
+    std::vector<ComparedMethod> methods = ballMethods({ trial.ball }, trial.lens, ballOptions(camera, trial, isRendered));
+    const std::vector<ComparedMethod> classical = boardMethods({ trial.board }, trial.lens, boardOptions(withBranchAndBound));
     methods.insert(methods.end(), classical.begin(), classical.end());
-    return compareMethods(methods, trial.validation, eye.camera, options).methods;
+    return compareMethods(methods, trial.validation, trial.lens, options).methods;
   }
 
   void runTask(StudyTask& task)
@@ -113,17 +114,17 @@ private:
     const StudyTrial trial = makeTrial(camera.camera, eye, camera.noise, options_.size, task.seed, pictures);
     ComparisonOptions comparison;
     comparison.subsetRepetitions = comparison.halvings = 0;
-    task.methods = compare(camera, eye, trial, options_.branchAndBoundSec > 0, comparison);
+    task.methods = compare(camera, trial, task.isRendered, options_.branchAndBoundSec > 0, comparison);
     task.trueMethods = task.methods;
     for (MethodResult& method : task.trueMethods)
     {
       ComparedCapture& capture = method.captures.front();
       if (capture.answer.isUsable())
       {
-        capture.validation = validateHandEye(trial.trueValidation, eye.camera, *capture.answer.markerToCamera);
+        capture.validation = validateHandEye(trial.trueValidation, trial.lens, *capture.answer.markerToCamera);
       }
     }
-    for (const HandEyeValidationSample& sample : validateHandEye(trial.validation, eye.camera, eye.markerToCamera).samples)
+    for (const HandEyeValidationSample& sample : validateHandEye(trial.validation, trial.lens, eye.markerToCamera).samples)
     {
       task.floorPx.push_back(sample.errorPx);
     }
@@ -133,7 +134,7 @@ private:
       size.ballSamples = size.boardViews = MostSubsetSamples;
       comparison.subsetRepetitions = 1;
       comparison.seed = task.seed;
-      task.subsets = compare(camera, eye, makeTrial(camera.camera, eye, camera.noise, size, task.seed + 1U), false, comparison);
+      task.subsets = compare(camera, makeTrial(camera.camera, eye, camera.noise, size, task.seed + 1U), false, false, comparison);
     }
     task.isDone = true;
   }
