@@ -17,6 +17,8 @@ namespace
 {
 
 constexpr int MostSubsetSamples = 30;
+constexpr double TiltsDeg[] = { 5, 10, 15, 20, 30, 45 };
+constexpr int TiltSearches = 5;  ///< repetitions of a range that have a branch and bound: it takes thousands of times as long
 
 class TaskRunner
 {
@@ -111,10 +113,16 @@ private:
     const StudyCameraResult& camera = cameras_[std::size_t(task.camera)];
     const StudyEye& eye = camera.camera.eyes[std::size_t(task.eye)];
     const StudyPictures* pictures = task.isRendered ? pictures_[std::size_t(task.camera)].get() : nullptr;
-    const StudyTrial trial = makeTrial(camera.camera, eye, camera.noise, options_.size, task.seed, pictures);
+    TrialSize size = options_.size;
+    if (task.tiltDeg > 0)
+    {
+      size.boardTiltDeg = task.tiltDeg;
+      size.boardRollDeg = task.tiltDeg * 4 / 3;
+    }
+    const StudyTrial trial = makeTrial(camera.camera, eye, camera.noise, size, task.seed, pictures);
     ComparisonOptions comparison;
     comparison.subsetRepetitions = comparison.halvings = 0;
-    task.methods = compare(camera, trial, task.isRendered, options_.branchAndBoundSec > 0, comparison);
+    task.methods = compare(camera, trial, task.isRendered, task.hasBranchAndBound && options_.branchAndBoundSec > 0, comparison);
     task.trueMethods = task.methods;
     for (MethodResult& method : task.trueMethods)
     {
@@ -130,7 +138,6 @@ private:
     }
     if (task.hasSubsets)
     {
-      TrialSize size = options_.size;
       size.ballSamples = size.boardViews = MostSubsetSamples;
       comparison.subsetRepetitions = 1;
       comparison.seed = task.seed;
@@ -149,6 +156,24 @@ private:
   int done_ = 0;
   std::exception_ptr failure_;
 };
+
+/// The reason why the methods with a board do well or badly: how far the camera was turned.
+void planTilts(const StudyOptions& options, int camera, std::vector<StudyTask>& tasks)
+{
+  for (const double tiltDeg : TiltsDeg)
+  {
+    for (int repetition = 0; repetition < options.tiltRepetitions && !options.isNoiseFree; ++repetition)
+    {
+      StudyTask task;
+      task.camera = camera;
+      task.repetition = repetition;
+      task.tiltDeg = tiltDeg;
+      task.hasBranchAndBound = repetition < TiltSearches;
+      task.seed = options.seed * 1000003U + unsigned(camera) * 100003U + unsigned(repetition) * 7U + 3U;
+      tasks.push_back(task);
+    }
+  }
+}
 
 }  // namespace
 
@@ -177,6 +202,7 @@ std::vector<StudyTask> planTasks(const StudyOptions& options, const std::vector<
         }
       }
     }
+    planTilts(options, int(camera), tasks);
   }
   return tasks;
 }

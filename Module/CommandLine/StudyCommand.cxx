@@ -112,6 +112,11 @@ void addStudyCommand(CLI::App& app, int& exitCode)
     ->check(some)
     ->capture_default_str();
   command
+    ->add_option(
+      "--tilts", options.tiltRepetitions, "Repetitions for each range of the board's directions, 5 to 45 degrees; 0 for none")
+    ->check(some)
+    ->capture_default_str();
+  command
     ->add_option("--render", options.renderedRepetitions,
       "Repetitions whose balls and boards are rendered and found by the detectors, besides the others")
     ->check(some)

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CommandRunner.h"
-
 #include "BoardPicture.h"
 #include "CaptureSimulation.h"
+
+#include "CommandRunner.h"
 
 #include <gtest/gtest.h>
 
