@@ -5,6 +5,7 @@
 #include "BoardDictionary.h"
 #include "BoardEdges.h"
 #include "BoardFinders.h"
+#include "Statistics.h"
 
 #include <opencv2/imgproc.hpp>
 
@@ -91,6 +92,32 @@ double neighbourDistance(const BoardDetection& detection, std::size_t i)
   return nearest;
 }
 
+/// Corners of a ChArUco board that were drawn to something beside them; the others know where they should be.
+void dropStrays(BoardDetection& detection)
+{
+  constexpr double LeastPx = 0.5, Factor = 5;
+  const std::vector<double> distances = misplacements(detection);
+  if (distances.size() < 20)
+  {
+    return;
+  }
+  const double limit = std::max(LeastPx, Factor * median(distances));
+  BoardDetection kept = detection;
+  kept.ids.clear();
+  kept.points_Image.clear();
+  kept.points_Board.clear();
+  for (std::size_t i = 0; i < distances.size(); ++i)
+  {
+    if (distances[i] <= limit)
+    {
+      kept.ids.push_back(detection.ids[i]);
+      kept.points_Image.push_back(detection.points_Image[i]);
+      kept.points_Board.push_back(detection.points_Board[i]);
+    }
+  }
+  detection = kept.ids.size() * 5 >= distances.size() * 4 ? kept : detection;
+}
+
 void judgePlaces(const BoardDetectionOptions& options, BoardDetection& detection)
 {
   const std::vector<double> distances = misplacements(detection);
@@ -145,6 +172,10 @@ BoardDetection detectBoard(const cv::Mat& image, const BoardDescription& board, 
   for (const int id : detection.ids)
   {
     detection.points_Board.push_back(boardPoint(board, id));
+  }
+  if (board.kind == BoardDescription::Kind::Charuco)
+  {
+    dropStrays(detection);
   }
   judgePlaces(options, detection);
   detection.edgeWidthPx = measureEdgeWidth(grey, board, detection);

@@ -59,8 +59,8 @@ struct BoardHandEyeOptions
   double relativeGap = 0.05;
   double timeLimitSec = 60;         ///< then the best so far is the answer, with its gap
   double maximumOffsetMm = 1000;    ///< the camera's centre is no further from the marker's origin along each axis
-  int maximumPairs = 30;            ///< of views, those that turn most about different axes
-  int pointsPerPair = 5;            ///< correspondences of a pair, spread over the board
+  int maximumPairs = 20;            ///< of views, those that turn most about different axes
+  int pointsPerPair = 4;            ///< correspondences of a pair, spread over the board
   bool startFromClosedForm = true;  ///< the first candidate is `Park`'s solution; without it the search finds all by itself
 
   /// @throws std::invalid_argument with a sentence where a number makes no sense

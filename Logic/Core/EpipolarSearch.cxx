@@ -20,6 +20,7 @@ struct Cube
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   double halfSide = EIGEN_PI;
   double lowerBoundRad = 0;
+  Eigen::Vector3d center_Marker = Eigen::Vector3d::Zero();  ///< a good one for the cube that this is part of
 
   /// No rotation in the cube differs from that of its middle by more than this: |log(A B^T)| <= |log A - log B|.
   double reachRad() const { return std::sqrt(3.0) * halfSide; }
@@ -112,16 +113,21 @@ private:
   {
     const Eigen::Matrix3d rotation = rotationFromVector(cube.middle);
     const double reach = cube.reachRad(), wanted = threshold();
-    const std::optional<Eigen::Vector3d> center = program_.solve(rotation, wanted + reach);
-    if (!center)
+    double error = epipolarErrorRad(pairs_, rotation, cube.center_Marker);
+    if (error > wanted + reach)  // otherwise no program has to say that there is such a centre
     {
-      provenRad_ = std::min(provenRad_, wanted);
-      return;
+      const std::optional<Eigen::Vector3d> center = program_.solve(rotation, wanted + reach);
+      if (!center)
+      {
+        provenRad_ = std::min(provenRad_, wanted);
+        return;
+      }
+      cube.center_Marker = *center;
+      error = epipolarErrorRad(pairs_, rotation, *center);
     }
-    const double error = epipolarErrorRad(pairs_, rotation, *center);
     if (!best_ || error < best_->errorRad || (reach < 0.1 && error < best_->errorRad + 0.3 * reach && shouldDescend(cube.middle)))
     {
-      offer({ rotation, *center, error });
+      offer({ rotation, cube.center_Marker, error });
       descend(rotation);
     }
     // A second program where it may raise the bound that the cube hands on.

@@ -132,6 +132,35 @@ bool holdsInImage(const CameraModel& camera)
   return true;
 }
 
+/// The lens must be the same in the first half of the views as in the second: a zoom in between fits a lens in the middle, and no
+/// view stands out.
+void checkZoom(const std::vector<LensView>& views, const std::vector<int>& used, int width, int height,
+  const LensCalibrationOptions& options, LensCalibrationResult& result)
+{
+  constexpr double Deviations = 6, LeastShare = 0.005;
+  const std::ptrdiff_t half = std::ptrdiff_t(used.size()) / 2;
+  if (!result.isUsable() || half < options.minimumViews)
+  {
+    return;
+  }
+  const std::vector<int> first(used.begin(), used.begin() + half), second(used.begin() + half, used.end());
+  const std::optional<LensFit> before = fitLens(pointersTo(views, first), width, height, 4, options.circleDiameterMm);
+  const std::optional<LensFit> after = fitLens(pointersTo(views, second), width, height, 4, options.circleDiameterMm);
+  if (!before || !after)
+  {
+    return;
+  }
+  const double change = after->camera.fx() - before->camera.fx();
+  const double sigma = std::hypot(before->cameraMatrixSigmas(0), after->cameraMatrixSigmas(0));
+  if (std::abs(change) > Deviations * sigma && std::abs(change) > LeastShare * before->camera.fx())
+  {
+    result.status = Status::MixedViews;
+    result.camera.reset();
+    result.message = "the lens changed between the views: its focal length is " + fixedDigits(before->camera.fx(), 1) +
+      " px in the first half and " + fixedDigits(after->camera.fx(), 1) + " px in the second. Was it zoomed or focused anew?";
+  }
+}
+
 std::string verdict(const LensFit& fit, const LensCalibrationResult& result)
 {
   std::string left;
@@ -237,7 +266,12 @@ LensCalibrationResult calibrateLens(
   }
   storeFit(*fit, used, result);
   judge(*fit, options, result);
-  if (result.isUsable() && options.compareModels)
+  if (options.rejectOutlierViews)
+  {
+    checkZoom(views, used, width, height, options, result);
+  }
+  const bool isWorthComparing = result.isUsable() || result.status == Status::FoldsInImage;
+  if (isWorthComparing && options.compareModels)
   {
     compareLensModels(pointersTo(views, used), width, height, options, *fit, result);
   }

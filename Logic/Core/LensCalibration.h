@@ -70,7 +70,7 @@ struct LensCalibrationResult
     TooFewViews,
     ParallelViews,  ///< the board always stood the same way: the focal length cannot be told from the distance
     TooUncertain,   ///< the parameters' standard deviations are too large to be of use
-    MixedViews,     ///< too many views disagree: another board, or a zoom that changed
+    MixedViews,     ///< too many views disagree (another board), or the lens changed between the first half and the second
     NoFit,          ///< no lens explains the views
     /// the lens polynomial folds back on itself inside the image: too few points near the border, or too many coefficients
     FoldsInImage

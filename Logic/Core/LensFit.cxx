@@ -84,6 +84,14 @@ std::vector<Eigen::Vector2d> residualsOf(
   return residuals;
 }
 
+/// OpenCV 4.6 divides the squares of both coordinates by the number of points less that of the parameters; there are twice as many
+/// equations as points.
+double sigmaCorrection(int points, int parameters)
+{
+  const double wrong = std::max(1, points - parameters), right = std::max(1, 2 * points - parameters);
+  return std::sqrt(wrong / right);
+}
+
 std::optional<LensFit> fitOnce(const std::vector<const LensView*>& views, int width, int height, int coefficientCount)
 {
   const cv::Size size(width, height);
@@ -94,7 +102,8 @@ std::optional<LensFit> fitOnce(const std::vector<const LensView*>& views, int wi
   {
     matrix = startingMatrix(points, size);
     cv::calibrateCamera(points.object, points.image, size, matrix, coefficients, rotations, translations, sigmas, poseSigmas,
-      perView, flagsFor(coefficientCount), cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 200, 1e-12));
+      perView, flagsFor(coefficientCount),
+      cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, coefficientCount == 8 ? 100 : 50, 1e-10));
   }
   catch (const cv::Exception&)
   {
@@ -109,14 +118,6 @@ std::optional<LensFit> fitOnce(const std::vector<const LensView*>& views, int wi
   const double* values = coefficients.ptr<double>();
   LensFit fit{ CameraModel(width, height, cameraMatrix, std::vector<double>(values, values + coefficientCount)), {}, {}, {}, {}, {},
     0, 0 };
-  for (int i = 0; i < 4; ++i)
-  {
-    fit.cameraMatrixSigmas(i) = sigmas.at<double>(i);
-  }
-  for (int i = 0; i < coefficientCount; ++i)
-  {
-    fit.coefficientSigmas.push_back(sigmas.at<double>(4 + i));
-  }
   for (std::size_t i = 0; i < views.size(); ++i)
   {
     fit.boardToCamera.push_back(toTransform(rotations[i], translations[i]));
@@ -129,6 +130,15 @@ std::optional<LensFit> fitOnce(const std::vector<const LensView*>& views, int wi
     fit.viewRmsPx.push_back(std::sqrt(squares / double(views[i]->ids.size())));
     fit.squares += squares;
     fit.pointCount += int(views[i]->ids.size());
+  }
+  const double correction = sigmaCorrection(fit.pointCount, 4 + coefficientCount + 6 * int(views.size()));
+  for (int i = 0; i < 4; ++i)
+  {
+    fit.cameraMatrixSigmas(i) = correction * sigmas.at<double>(i);
+  }
+  for (int i = 0; i < coefficientCount; ++i)
+  {
+    fit.coefficientSigmas.push_back(correction * sigmas.at<double>(4 + i));
   }
   return fit;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LensRepeatability.h"
 
+#include "RigidTransform.h"
+
 #include <numeric>
 #include <random>
 
@@ -25,20 +27,35 @@ std::vector<std::size_t> draw(std::size_t from, std::size_t count, std::mt19937&
   return indices;
 }
 
-/// How far (px) one lens sees the rays of another from where that one does, over a grid of the image.
+/// How far (px) one lens sees the rays of another from where that one does, over a grid of the image; the turn between the two,
+/// which
+/// the hand-eye calibration takes up, does not count.
 std::vector<double> shiftsPx(const CameraModel& reference, const CameraModel& camera)
 {
   constexpr int Columns = 9, Rows = 7;
-  std::vector<double> shifts;
+  std::vector<Eigen::Vector2d> pixels;
+  std::vector<Eigen::Vector3d> rays;
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
   for (int i = 0; i < Columns * Rows; ++i)
   {
     const Eigen::Vector2d pixel(
       (reference.width() - 1) * double(i % Columns) / (Columns - 1), (reference.height() - 1) * double(i / Columns) / (Rows - 1));
-    const CameraModel::Unprojection ray = reference.unproject(pixel);
-    const CameraModel::Projection seen = ray.isUsable() ? camera.project(ray.ray_Camera) : CameraModel::Projection();
+    const CameraModel::Unprojection ours = reference.unproject(pixel), theirs = camera.unproject(pixel);
+    if (ours.isUsable() && theirs.isUsable())
+    {
+      pixels.push_back(pixel);
+      rays.push_back(ours.ray_Camera);
+      products += theirs.ray_Camera * ours.ray_Camera.transpose();
+    }
+  }
+  const Eigen::Matrix3d turn = nearestRotation(products);
+  std::vector<double> shifts;
+  for (std::size_t i = 0; i < rays.size(); ++i)
+  {
+    const CameraModel::Projection seen = camera.project(turn * rays[i]);
     if (seen.isUsable())
     {
-      shifts.push_back((seen.point_Image - pixel).norm());
+      shifts.push_back((seen.point_Image - pixels[i]).norm());
     }
   }
   return shifts;

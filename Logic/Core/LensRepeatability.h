@@ -27,7 +27,8 @@ struct LensRepetition
   int failedCount = 0;
   Summary fx, fy, cx, cy;             ///< px
   std::vector<Summary> coefficients;  ///< in their order
-  /// How far (px) the repeated lenses see the rays from where the lens of all views sees them, over a grid of the image: what the
+  /// How far (px) the repeated lenses see the rays from where the lens of all views sees them, over a grid of the image, a common
+  /// turn of all rays aside, which a hand-eye calibration takes up: what the
   /// spread of the parameters, which hide each other, comes to.
   double meanShiftPx = 0;
   double maximumShiftPx = 0;

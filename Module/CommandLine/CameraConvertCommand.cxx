@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BoardOptions.h"
 #include "CommandOutput.h"
 #include "Commands.h"
 #include "ExportFormats.h"
@@ -37,15 +38,8 @@ int runConvert(const ConvertArguments& arguments)
 
 void addCameraConvertCommand(CLI::App& app, int& exitCode)
 {
-  // `camera` holds several commands, each in its own file: whoever comes first makes it.
-  const std::vector<CLI::App*> there = app.get_subcommands([](CLI::App* command) { return command->get_name() == "camera"; });
-  CLI::App* camera = there.empty() ? app.add_subcommand("camera", "Camera files") : there.front();
-  if (there.empty())
-  {
-    camera->require_subcommand(1);
-  }
   auto arguments = std::make_shared<ConvertArguments>();
-  CLI::App* command = camera->add_subcommand("convert", "Read a camera file of any known kind and write it as another");
+  CLI::App* command = cameraGroup(app)->add_subcommand("convert", "Read a camera file of any known kind and write it as another");
   command->add_option("camera", arguments->camera, "OpenCV, ROS, SlicerPinholeCameras, VASST, scikit-surgery or calibration.json")
     ->required()
     ->type_name("CAMERA");

@@ -57,6 +57,9 @@ int main(int argc, char** argv)
   addOverlayCommand(app, exitCode);
   addExportCommand(app, exitCode);
   addCameraConvertCommand(app, exitCode);
+  addCameraCalibrateCommand(app, exitCode);
+  addCameraBoardCommand(app, exitCode);
+  addBoardHandEyeCommand(app, exitCode);
   addSimulateCommand(app, exitCode);
   addRecordCommand(app, exitCode);
   addCaptureCommand(app, exitCode);

@@ -1,0 +1,274 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "AtomicFile.h"
+#include "BoardOptions.h"
+#include "BoardPattern.h"
+#include "BoardResultFiles.h"
+#include "CameraFileWriter.h"
+#include "CommandOutput.h"
+#include "Commands.h"
+#include "CommonOptions.h"
+#include "CoveragePicture.h"
+#include "FileError.h"
+#include "JsonEigen.h"
+#include "LensStereo.h"
+
+#include <memory>
+
+namespace handeye::cli
+{
+
+namespace
+{
+
+struct LensArguments
+{
+  std::string recording, right, board, rightFile, leftToRightFile, coverageFile;
+  LensCalibrationOptions lens;
+  LensViewCollectorOptions collector;
+  double circleDiameterMm = -1;
+  int repetitions = 0;
+  bool all = false;
+  bool keepOutliers = false;
+  CommandOutput output;
+};
+
+/// One eye's pictures of the board.
+struct EyeViews
+{
+  std::vector<BoardFrame> frames;
+  std::vector<LensView> views;
+  std::unique_ptr<LensViewCollector> collector;
+  int width = 0;
+  int height = 0;
+};
+
+void readSize(const io::Recording& recording, EyeViews& eye)
+{
+  for (int frame = 0; frame < recording.frameCount(); ++frame)
+  {
+    if (!recording.hasImage(frame))
+    {
+      continue;
+    }
+    const cv::Mat image = recording.image(frame);
+    if (eye.width != 0 && (image.cols != eye.width || image.rows != eye.height))
+    {
+      throw io::FileError(recording.path(),
+        "image " + std::to_string(frame) + " has " + std::to_string(image.cols) + " x " + std::to_string(image.rows) +
+          " pixels, those before it " + std::to_string(eye.width) + " x " + std::to_string(eye.height));
+    }
+    eye.width = image.cols;
+    eye.height = image.rows;
+  }
+}
+
+EyeViews readEye(const LensArguments& arguments, const std::string& path, const std::string& label, bool all)
+{
+  const io::Recording recording = io::Recording::openImages(path);
+  arguments.output.warn(recording.warnings());
+  EyeViews eye;
+  readSize(recording, eye);
+  eye.frames = readBoardFrames(
+    recording, parseBoard(arguments.board), {}, arguments.output.progress("looking for the board" + label + ", frame"));
+  if (eye.width == 0)
+  {
+    throw io::FileError(path, "the recording has no images, which this step needs");
+  }
+  eye.collector = std::make_unique<LensViewCollector>(eye.width, eye.height, arguments.collector);
+  eye.views = selectLensViews(eye.frames, all ? nullptr : eye.collector.get());
+  if (all)
+  {
+    for (const BoardFrame& frame : eye.frames)  // for the coverage map
+    {
+      eye.collector->add(frame.frame, frame.detection);
+    }
+  }
+  return eye;
+}
+
+void sayEye(const LensArguments& arguments, const EyeViews& eye, const LensCalibrationResult& result, const std::string& label)
+{
+  const CommandOutput& output = arguments.output;
+  const std::string statuses = countStatuses(eye.frames);
+  output.say("views" + label + "                " + std::to_string(eye.views.size()) + " of " + std::to_string(eye.frames.size()) +
+    " frames" + (statuses.empty() ? "" : " (not used: " + statuses + ")"));
+  output.say(format("coverage             %.0f %% of the image", 100 * eye.collector->coverageShare()));
+  for (const LensCalibrationResult::View& view : result.views)
+  {
+    if (!view.used)
+    {
+      output.say("left out             frame " + std::to_string(view.frame) + ": " + view.message);
+    }
+  }
+  if (!result.isUsable())
+  {
+    output.say("next                 " + eye.collector->hint());
+    return;
+  }
+  const CameraModel& camera = *result.camera;
+  const Eigen::Vector4d& sigma = result.cameraMatrixSigmas;
+  output.say(format("focal length         %.2f, %.2f px", camera.fx(), camera.fy()) +
+    format(" (standard deviations %.2f, %.2f)", sigma(0), sigma(1)));
+  output.say(format("principal point      %.2f, %.2f px", camera.cx(), camera.cy()) +
+    format(" (standard deviations %.2f, %.2f)", sigma(2), sigma(3)));
+  static const char* const names[] = { "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6" };
+  for (std::size_t i = 0; i < result.coefficientSigmas.size(); ++i)
+  {
+    output.say("  " + std::string(names[i]) +
+      format("                 %10.5f (%.5f)", camera.distortionCoefficients()[i], result.coefficientSigmas[i]));
+  }
+  for (const LensModelComparison& model : result.models)
+  {
+    output.say("model                " + std::to_string(model.coefficients) +
+      format(" coefficients: %.4f px RMS, focal length %.2f px", model.rmsPx, model.focalPx));
+  }
+  if (!result.modelHint.empty())
+  {
+    output.say("model                " + result.modelHint);
+  }
+  output.say("verdict" + label + "              " + result.message);
+}
+
+void writeLens(const std::string& path, const LensCalibrationResult& result, const CommandOutput& output)
+{
+  std::vector<std::string> warnings;
+  io::CameraFileExtras extras;
+  extras.reprojectionErrorPx = result.rmsPx;
+  io::writeCameraFile(path, { *result.camera, std::nullopt, "OpenCV", {} }, io::CameraFormat::OpenCV, warnings, extras);
+  output.warn(warnings);
+}
+
+void writeCoverage(const LensArguments& arguments, const EyeViews& eye, const LensCalibrationResult& result)
+{
+  if (!arguments.coverageFile.empty())
+  {
+    writeCoveragePicture(arguments.coverageFile, *eye.collector, result, eye.views, eye.width, eye.height);
+    arguments.output.say("written to " + arguments.coverageFile);
+  }
+}
+
+int runOne(const LensArguments& arguments, const BoardDescription& board)
+{
+  const EyeViews eye = readEye(arguments, arguments.recording, "", arguments.all);
+  const LensCalibrationResult result = calibrateLens(eye.views, eye.width, eye.height, arguments.lens);
+  sayEye(arguments, eye, result, "");
+  nlohmann::json object = lensJson(result, board, eye.frames, eye.collector.get());
+  if (result.isUsable() && arguments.repetitions > 0)
+  {
+    LensRepetitionOptions repetition;
+    repetition.repetitions = arguments.repetitions;
+    const LensRepetition repeated = repeatLensCalibration(
+      eye.views, eye.width, eye.height, arguments.lens, repetition, arguments.output.progress("calibrating again,"));
+    object["repetitions"] = repetitionJson(repeated);
+    arguments.output.say("repeated             " + std::to_string(repeated.results.size()) +
+      format(" times with 60 %% of the views: focal length %.2f px +- %.2f", repeated.fx.mean, repeated.fx.standardDeviation) +
+      format("; rays move by %.2f px, %.2f at most", repeated.meanShiftPx, repeated.maximumShiftPx));
+  }
+  writeCoverage(arguments, eye, result);
+  return arguments.output.finish(object, [&](const std::string& path) { writeLens(path, result, arguments.output); });
+}
+
+/// Four rows of four numbers, as `handeye calibrate --left-to-right` reads them.
+void writeTransform(const std::string& path, const Eigen::Isometry3d& transform)
+{
+  std::string text;
+  for (int row = 0; row < 4; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      text += format("%.12g", transform.matrix()(row, column)) + (column < 3 ? " " : "\n");
+    }
+  }
+  io::writeFileAtomically(path, text);
+}
+
+int runStereo(const LensArguments& arguments, const BoardDescription& board)
+{
+  // The eyes have to see the same moments: no picking of views of one of them.
+  const EyeViews left = readEye(arguments, arguments.recording, " (left)", true);
+  const EyeViews right = readEye(arguments, arguments.right, " (right)", true);
+  const StereoLensResult result =
+    calibrateStereoLens(left.views, left.width, left.height, right.views, right.width, right.height, arguments.lens);
+  sayEye(arguments, left, result.left, ", left");
+  sayEye(arguments, right, result.right, ", right");
+  nlohmann::json object = { { "schema", "handeye-stereo-lens/1" }, { "status", toString(result.status) },
+    { "message", result.message }, { "left", lensJson(result.left, board, left.frames, left.collector.get()) },
+    { "right", lensJson(result.right, board, right.frames, right.collector.get()) } };
+  if (result.isUsable())
+  {
+    object["leftToRight"] = toJson(result.leftToRight);
+    object["covariance"] = toJson(result.covariance);
+    object["rmsPx"] = result.rmsPx;
+    object["pairFrames"] = result.frames;
+    arguments.output.say("leftToRight (mm)\n" + matrixLines(result.leftToRight.matrix(), "  ", 4));
+    arguments.output.say("verdict, pair        " + result.message);
+  }
+  writeCoverage(arguments, left, result.left);
+  return arguments.output.finish(object,
+    [&](const std::string& path)
+    {
+      writeLens(path, result.left, arguments.output);
+      if (!arguments.rightFile.empty())
+      {
+        writeLens(arguments.rightFile, result.right, arguments.output);
+        arguments.output.say("written to " + arguments.rightFile);
+      }
+      if (!arguments.leftToRightFile.empty())
+      {
+        writeTransform(arguments.leftToRightFile, result.leftToRight);
+        arguments.output.say("written to " + arguments.leftToRightFile);
+      }
+    });
+}
+
+int runLens(LensArguments& arguments)
+{
+  const BoardDescription board = parseBoard(arguments.board);
+  arguments.lens.rejectOutlierViews = !arguments.keepOutliers;
+  arguments.lens.circleDiameterMm = arguments.circleDiameterMm >= 0 ? arguments.circleDiameterMm : printedCircleDiameterMm(board);
+  return arguments.right.empty() ? runOne(arguments, board) : runStereo(arguments, board);
+}
+
+}  // namespace
+
+void addCameraCalibrateCommand(CLI::App& app, int& exitCode)
+{
+  auto arguments = std::make_shared<LensArguments>();
+  arguments->collector.stillFrames = 1;
+  CLI::App* command = cameraGroup(app)->add_subcommand("calibrate", "Find a lens from pictures of a board");
+  addRecordingArgument(*command, arguments->recording, "Pictures of the board: a folder with frames/, or a sequence metafile");
+  addBoardOption(*command, arguments->board);
+  command->add_option("--model", arguments->lens.coefficients, "Distortion coefficients: k1 k2 p1 p2, and k3, and k4 k5 k6")
+    ->check(CLI::IsMember({ 4, 5, 8 }))
+    ->type_name("4|5|8")
+    ->capture_default_str();
+  command->add_flag("--all", arguments->all, "Use every picture that shows the board, not only those that are sharp and new");
+  command
+    ->add_option("--still-frames", arguments->collector.stillFrames, "Of a video: the board has stood still for so many frames")
+    ->check(CLI::Range(1, 1000))
+    ->capture_default_str();
+  command->add_flag("--keep-all", arguments->keepOutliers, "Use all views, also those that disagree with the rest");
+  command
+    ->add_option("--circle-diameter", arguments->circleDiameterMm,
+      "Of a circle grid's circles, mm; otherwise that of the boards printed by `handeye camera board`; 0: do not correct for it")
+    ->check(CLI::Range(0.0, 1000.0))
+    ->type_name("MM");
+  command
+    ->add_option(
+      "--repeat", arguments->repetitions, "Calibrate so many times from random parts of the views, and say how it varies")
+    ->check(CLI::Range(2, 1000))
+    ->type_name("N");
+  command->add_option("--coverage", arguments->coverageFile, "Draw where the image has points, and their errors, to this picture")
+    ->type_name("PNG");
+  CLI::Option* right = command->add_option("--right", arguments->right, "The same moments seen by the right eye of a stereo pair");
+  right->type_name("RECORDING");
+  command->add_option("--right-output", arguments->rightFile, "Write the right lens to this file")->needs(right)->type_name("FILE");
+  command->add_option("--left-to-right", arguments->leftToRightFile, "Write the eyes' relation, p_Right = M * p_Left, to this file")
+    ->needs(right)
+    ->type_name("4x4-FILE");
+  arguments->output.addTo(*command);
+  command->callback([arguments, &exitCode] { exitCode = runLens(*arguments); });
+}
+
+}  // namespace handeye::cli
