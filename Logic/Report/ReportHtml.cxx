@@ -22,7 +22,8 @@ h2 { font-size: 1.25em; margin: 2em 0 .5em; border-bottom: 1px solid #ccc; paddi
 .poor { border-color: #b3261e; background: #fcebea; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .9em; }
-caption { text-align: left; padding: .3em 0; color: #444; caption-side: top; }
+p, li { overflow-wrap: anywhere; }
+.caption { color: #444; font-size: .9em; margin: 1em 0 .3em; }
 th, td { padding: .25em .7em; border-bottom: 1px solid #ddd; text-align: right; vertical-align: top; white-space: nowrap; }
 th { border-bottom: 2px solid #888; vertical-align: bottom; }
 .text { text-align: left; } .long { text-align: left; white-space: normal; min-width: 16em; }
@@ -94,9 +95,8 @@ public:
   void operator()(const Paragraph& paragraph) { html_ += "<p>" + escapeHtml(paragraph.text) + "</p>\n"; }
   void operator()(const Table& table)
   {
-    html_ += "<div class='scroll'><table>\n";
-    html_ += table.caption.empty() ? "" : "<caption>" + escapeHtml(table.caption) + "</caption>\n";
-    html_ += "<thead>";
+    html_ += table.caption.empty() ? "" : "<p class='caption'>" + escapeHtml(table.caption) + "</p>\n";
+    html_ += "<div class='scroll'><table><thead>";
     addRow(table, table.headings, "th");
     html_ += "</thead><tbody>\n";
     for (const std::vector<std::string>& row : table.rows)

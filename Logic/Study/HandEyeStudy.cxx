@@ -50,7 +50,7 @@ void prepareNoise(const StudyOptions& options, const StudyPictures* pictures, St
     throw std::runtime_error("ball or board are not found in the rendered pictures of the " + result.camera.name);
   }
   result.noise = { options.trackingSigmaMm, options.trackingSigmaDeg * double(EIGEN_PI) / 180, result.measured.ballSigmaPx,
-    result.measured.cornerSigmaPx };
+    result.measured.cornerSigmaPx, options.lensFocalShare, options.lensCenterPx };
 }
 
 }  // namespace
@@ -66,9 +66,14 @@ void StudyOptions::check() const
     throw std::invalid_argument(
       "a repetition needs 6 balls, 3 views of the board, one validation sample and 50 pivot poses at least");
   }
-  if (!(trackingSigmaMm >= 0) || !(trackingSigmaDeg >= 0) || !(branchAndBoundSec >= 0))
+  if (!(trackingSigmaMm >= 0) || !(trackingSigmaDeg >= 0) || !(branchAndBoundSec >= 0) ||
+    !(lensFocalShare >= 0 && lensFocalShare < 0.1) || !(lensCenterPx >= 0))
   {
-    throw std::invalid_argument("noise and time limit must not be negative");
+    throw std::invalid_argument("noise and time limit must not be negative, and the focal length's error is below a tenth");
+  }
+  if (!(size.boardTiltDeg >= 1 && size.boardTiltDeg <= 70) || !(size.boardRollDeg >= 0 && size.boardRollDeg <= 180))
+  {
+    throw std::invalid_argument("the board is tilted by 1 to 70 degrees and turned by 0 to 180");
   }
   (void)chosenCameras(cameras);
 }

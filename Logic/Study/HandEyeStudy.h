@@ -20,9 +20,13 @@ struct StudyOptions
   TrialSize size;                 ///< samples and views of a repetition
   double trackingSigmaMm = 0.12;  ///< of every pose of every marker, per axis
   double trackingSigmaDeg = 0.025;
-  bool isNoiseFree = false;          ///< neither tracker nor features have noise: every method must find the truth
-  int noisePictures = 20;            ///< of ball and board each, from which a camera's feature noise is measured
+  double lensFocalShare =
+    0;                       ///< error of the lens that all methods are told, anew in each repetition: the focal length, as a share
+  double lensCenterPx = 0;   ///< and the principal point, px per axis
+  bool isNoiseFree = false;  ///< neither tracker nor features have noise: every method must find the truth
+  int noisePictures = 20;    ///< of ball and board each, from which a camera's feature noise is measured
   int subsetRepetitions = 20;        ///< the first so many repetitions also give random subsets of 3 to 30 samples
+  int tiltRepetitions = 20;          ///< of the first eye for each range of the board's directions; 0 leaves that out
   int renderedRepetitions = 0;       ///< repetitions whose features are really found in rendered pictures, besides the others
   double branchAndBoundSec = 2;      ///< time limit of one; 0 leaves it out
   std::vector<std::string> cameras;  ///< names; all where empty
@@ -31,6 +35,13 @@ struct StudyOptions
 
   /// @throws std::invalid_argument with a sentence where a number makes no sense or there is no such camera
   void check() const;
+};
+
+/// What was found with the board seen from a smaller or larger range of directions.
+struct StudyTiltResult
+{
+  double tiltDeg = 0;  ///< up to so far off its normal; turned by up to 4/3 of it
+  ComparisonResult comparison, truth;
 };
 
 /// What was found for one camera. All repetitions and eyes are pooled.
@@ -42,6 +53,7 @@ struct StudyCameraResult
   ComparisonResult comparison;  ///< against what the validation shows: tracked and segmented balls, as a user has them
   ComparisonResult truth;       ///< the same calibrations against the same balls without noise: the calibrations' own error
   Summary floorPx;              ///< what the validation shows of a perfect calibration: the noise of the validation alone
+  std::vector<StudyTiltResult> byTilt;
   /// With features that were found in pictures; no methods where none were asked for.
   ComparisonResult rendered;
   int renderedEyes = 0;
@@ -56,6 +68,7 @@ struct StudyClaim
   std::string lowestMean, lowestMaximum;  ///< whose they are, of all methods
   double branchAndBoundMean = 0;          ///< its mean error over that of `ml`; 0 where it gave none
   double branchAndBoundMaximum = 0;
+  double trackedBoardMean = 0;        ///< the mean error of `tracked-board` over that of `ml`; 0 where it gave none
   double branchAndBoundTrueMean = 0;  ///< the same of the calibrations' own errors
   std::string message;
 };

@@ -77,7 +77,7 @@ FeatureNoise measureFeatureNoise(
       ++noise.ballsFound;
       ballSquares += (ball.ball_Image - eye.camera.project(ball_Camera).point_Image).squaredNorm();
     }
-    const Eigen::Isometry3d boardToCamera = drawBoardPose(camera, eye, random);
+    const Eigen::Isometry3d boardToCamera = drawBoardPose(camera, eye, 45 * EIGEN_PI / 180, 60 * EIGEN_PI / 180, random);
     const BoardDetection board = pictures.findBoard(boardToCamera, random.seed());
     ++noise.boards;
     noise.boardsFound += board.isUsable() ? 1 : 0;

@@ -10,8 +10,6 @@ namespace handeye::study
 namespace
 {
 
-constexpr double Degree = EIGEN_PI / 180;
-
 /// A point that is seen at a random pixel at least `margin` from the border.
 Eigen::Vector3d drawPoint(const CameraModel& camera, double margin, double depthMm, StudyRandom& random)
 {
@@ -52,13 +50,13 @@ Eigen::Vector3d drawBallPlace(const StudyCamera& camera, const StudyEye& eye, St
   return drawPoint(eye.camera, margin, depth, random);
 }
 
-Eigen::Isometry3d drawBoardPose(const StudyCamera& camera, const StudyEye& eye, StudyRandom& random)
+Eigen::Isometry3d drawBoardPose(const StudyCamera& camera, const StudyEye& eye, double tiltRad, double rollRad, StudyRandom& random)
 {
   const Eigen::Vector3d middle_Board = boardCenter(camera.board);
   for (int attempt = 0; attempt < 10000; ++attempt)
   {
-    const double direction = random.uniform(0, 2 * EIGEN_PI), tilt = random.uniform(5, 45) * Degree,
-                 roll = random.uniform(-60, 60) * Degree;
+    const double direction = random.uniform(0, 2 * EIGEN_PI), tilt = random.uniform(0.1, 1) * tiltRad,
+                 roll = random.uniform(-1, 1) * rollRad;
     const Eigen::Vector3d axis(std::cos(direction), std::sin(direction), 0);
     Eigen::Isometry3d boardToCamera = Eigen::Isometry3d::Identity();
     boardToCamera.linear() = rotationFromVector(tilt * axis) * rotationFromVector({ 0, 0, roll });

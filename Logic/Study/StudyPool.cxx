@@ -119,6 +119,16 @@ void poolSpread(const std::vector<const StudyTask*>& tasks, const StudyCameraRes
   }
 }
 
+void addTilt(const StudyTask& task, std::vector<StudyTiltResult>& tilts)
+{
+  if (tilts.empty() || tilts.back().tiltDeg != task.tiltDeg)
+  {
+    tilts.push_back({ task.tiltDeg, {}, {} });
+  }
+  addCaptures(task.methods, tilts.back().comparison.methods);
+  addCaptures(task.trueMethods, tilts.back().truth.methods);
+}
+
 }  // namespace
 
 void poolTasks(const std::vector<StudyTask>& tasks, int camera, StudyCameraResult& result)
@@ -129,6 +139,11 @@ void poolTasks(const std::vector<StudyTask>& tasks, int camera, StudyCameraResul
   {
     if (task.camera != camera || !task.isDone)
     {
+      continue;
+    }
+    if (task.tiltDeg > 0)
+    {
+      addTilt(task, result.byTilt);
       continue;
     }
     if (task.isRendered)
@@ -148,6 +163,11 @@ void poolTasks(const std::vector<StudyTask>& tasks, int camera, StudyCameraResul
   finish(result.comparison);
   finish(result.truth);
   finish(result.rendered);
+  for (StudyTiltResult& tilt : result.byTilt)
+  {
+    finish(tilt.comparison);
+    finish(tilt.truth);
+  }
 }
 
 }  // namespace handeye::study

@@ -17,6 +17,8 @@ namespace
 {
 
 constexpr int MostSubsetSamples = 30;
+constexpr double TiltsDeg[] = { 5, 10, 15, 20, 30, 45 };
+constexpr int TiltSearches = 5;  ///< repetitions of a range that have a branch and bound: it takes thousands of times as long
 
 class TaskRunner
 {
@@ -76,10 +78,11 @@ private:
     }
   }
 
-  HandEyeCalibrationOptions ballOptions(const StudyCameraResult& camera, const StudyTrial& trial) const
+  HandEyeCalibrationOptions ballOptions(const StudyCameraResult& camera, const StudyTrial& trial, bool isRendered) const
   {
     HandEyeCalibrationOptions options;
     options.tipCovariance_Stylus = trial.tipCovariance_Stylus;
+    options.rejectOutliers = isRendered;  // projected features are never wrong, and the search for such is most of the time
     if (!options_.isNoiseFree)
     {
       options.segmentationSigmaPx = camera.noise.ballSigmaPx;
@@ -96,13 +99,13 @@ private:
     return options;
   }
 
-  std::vector<MethodResult> compare(const StudyCameraResult& camera, const StudyEye& eye, const StudyTrial& trial,
+  std::vector<MethodResult> compare(const StudyCameraResult& camera, const StudyTrial& trial, bool isRendered,
     bool withBranchAndBound, const ComparisonOptions& options)
   {
-    std::vector<ComparedMethod> methods = ballMethods({ trial.ball }, eye.camera, ballOptions(camera, trial));
-    const std::vector<ComparedMethod> classical = boardMethods({ trial.board }, eye.camera, boardOptions(withBranchAndBound));
+    std::vector<ComparedMethod> methods = ballMethods({ trial.ball }, trial.lens, ballOptions(camera, trial, isRendered));
+    const std::vector<ComparedMethod> classical = boardMethods({ trial.board }, trial.lens, boardOptions(withBranchAndBound));
     methods.insert(methods.end(), classical.begin(), classical.end());
-    return compareMethods(methods, trial.validation, eye.camera, options).methods;
+    return compareMethods(methods, trial.validation, trial.lens, options).methods;
   }
 
   void runTask(StudyTask& task)
@@ -110,30 +113,35 @@ private:
     const StudyCameraResult& camera = cameras_[std::size_t(task.camera)];
     const StudyEye& eye = camera.camera.eyes[std::size_t(task.eye)];
     const StudyPictures* pictures = task.isRendered ? pictures_[std::size_t(task.camera)].get() : nullptr;
-    const StudyTrial trial = makeTrial(camera.camera, eye, camera.noise, options_.size, task.seed, pictures);
+    TrialSize size = options_.size;
+    if (task.tiltDeg > 0)
+    {
+      size.boardTiltDeg = task.tiltDeg;
+      size.boardRollDeg = task.tiltDeg * 4 / 3;
+    }
+    const StudyTrial trial = makeTrial(camera.camera, eye, camera.noise, size, task.seed, pictures);
     ComparisonOptions comparison;
     comparison.subsetRepetitions = comparison.halvings = 0;
-    task.methods = compare(camera, eye, trial, options_.branchAndBoundSec > 0, comparison);
+    task.methods = compare(camera, trial, task.isRendered, task.hasBranchAndBound && options_.branchAndBoundSec > 0, comparison);
     task.trueMethods = task.methods;
     for (MethodResult& method : task.trueMethods)
     {
       ComparedCapture& capture = method.captures.front();
       if (capture.answer.isUsable())
       {
-        capture.validation = validateHandEye(trial.trueValidation, eye.camera, *capture.answer.markerToCamera);
+        capture.validation = validateHandEye(trial.trueValidation, trial.lens, *capture.answer.markerToCamera);
       }
     }
-    for (const HandEyeValidationSample& sample : validateHandEye(trial.validation, eye.camera, eye.markerToCamera).samples)
+    for (const HandEyeValidationSample& sample : validateHandEye(trial.validation, trial.lens, eye.markerToCamera).samples)
     {
       task.floorPx.push_back(sample.errorPx);
     }
     if (task.hasSubsets)
     {
-      TrialSize size = options_.size;
       size.ballSamples = size.boardViews = MostSubsetSamples;
       comparison.subsetRepetitions = 1;
       comparison.seed = task.seed;
-      task.subsets = compare(camera, eye, makeTrial(camera.camera, eye, camera.noise, size, task.seed + 1U), false, comparison);
+      task.subsets = compare(camera, makeTrial(camera.camera, eye, camera.noise, size, task.seed + 1U), false, false, comparison);
     }
     task.isDone = true;
   }
@@ -148,6 +156,24 @@ private:
   int done_ = 0;
   std::exception_ptr failure_;
 };
+
+/// The reason why the methods with a board do well or badly: how far the camera was turned.
+void planTilts(const StudyOptions& options, int camera, std::vector<StudyTask>& tasks)
+{
+  for (const double tiltDeg : TiltsDeg)
+  {
+    for (int repetition = 0; repetition < options.tiltRepetitions && !options.isNoiseFree; ++repetition)
+    {
+      StudyTask task;
+      task.camera = camera;
+      task.repetition = repetition;
+      task.tiltDeg = tiltDeg;
+      task.hasBranchAndBound = repetition < TiltSearches;
+      task.seed = options.seed * 1000003U + unsigned(camera) * 100003U + unsigned(repetition) * 7U + 3U;
+      tasks.push_back(task);
+    }
+  }
+}
 
 }  // namespace
 
@@ -176,6 +202,7 @@ std::vector<StudyTask> planTasks(const StudyOptions& options, const std::vector<
         }
       }
     }
+    planTilts(options, int(camera), tasks);
   }
   return tasks;
 }

@@ -16,6 +16,8 @@ struct StudyTask
   int camera = 0, eye = 0, repetition = 0;
   bool isRendered = false;
   bool hasSubsets = false;
+  double tiltDeg = 0;  ///< of the range of the board's directions that is looked into; 0: the study's own
+  bool hasBranchAndBound = true;
   unsigned seed = 0;
   bool isDone = false;
   std::vector<MethodResult> methods;      ///< against the validation as a user has it

@@ -30,12 +30,13 @@ public:
     , pictures_(pictures)
     , random_(seed)
     , attitude_Camera_(random_.rotation())
+    , lens_(drawLens())
   {
   }
 
   StudyTrial make()
   {
-    StudyTrial trial;
+    StudyTrial trial{ lens_, {}, {}, {}, {}, Eigen::Matrix3d::Zero() };
     calibrateTip(trial);
     for (int i = 0; i < size_.ballSamples; ++i)
     {
@@ -50,6 +51,20 @@ public:
   }
 
 private:
+  /// The lens as its calibration would have found it.
+  CameraModel drawLens()
+  {
+    Eigen::Matrix3d matrix = eye_.camera.cameraMatrix();
+    const double focal = random_.normal(noise_.lensFocalShare);
+    const Eigen::Vector2d center = random_.normal2(noise_.lensCenterPx);
+    if (pictures_ == nullptr)
+    {
+      matrix.topLeftCorner<2, 2>() *= 1 + focal;
+      matrix.topRightCorner<2, 1>() += center;
+    }
+    return CameraModel(eye_.camera.width(), eye_.camera.height(), matrix, eye_.camera.distortionCoefficients());
+  }
+
   /// A pose as the tracker reports it.
   Eigen::Isometry3d tracked(const Eigen::Isometry3d& pose)
   {
@@ -107,7 +122,7 @@ private:
       return found.isFound();
     }
     sample.ball_Image = eye_.camera.project(ball_Camera).point_Image + random_.normal2(noise_.ballSigmaPx);
-    sample.ray_Eye = eye_.camera.unproject(sample.ball_Image).ray_Camera;
+    sample.ray_Eye = lens_.unproject(sample.ball_Image).ray_Camera;
     sample.apparentDistanceMm = ball_Camera.norm();
     sample.sigmaPx = noise_.ballSigmaPx;
     return true;
@@ -149,7 +164,7 @@ private:
     {
       sample.tip_Marker = ball_Marker;
       sample.ball_Image = eye_.camera.project(ball_Camera).point_Image;
-      sample.ray_Eye = ball_Camera.normalized();
+      sample.ray_Eye = lens_.unproject(sample.ball_Image).ray_Camera;
       trueSamples->push_back(sample);
     }
   }
@@ -180,7 +195,8 @@ private:
     const Eigen::Isometry3d boardToTracker = anyPose();
     for (int i = 0; i < size_.boardViews; ++i)
     {
-      const Eigen::Isometry3d boardToCamera = drawBoardPose(camera_, eye_, random_);
+      const Eigen::Isometry3d boardToCamera =
+        drawBoardPose(camera_, eye_, size_.boardTiltDeg * Degree, size_.boardRollDeg * Degree, random_);
       const Eigen::Isometry3d boardToMarker = eye_.markerToCamera.inverse() * boardToCamera;
       BoardHandEyeView view;
       view.frame = i;
@@ -200,6 +216,7 @@ private:
   const StudyPictures* pictures_;
   StudyRandom random_;
   Eigen::Matrix3d attitude_Camera_;
+  CameraModel lens_;
   Eigen::Vector3d tip_Stylus_ = Tip_Stylus;
   unsigned pictureSeed_ = 0;
 };

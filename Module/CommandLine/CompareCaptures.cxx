@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CompareCaptures.h"
 
-#include "BoardDetection.h"
+#include "BoardOptions.h"
 #include "StopSignal.h"
 #include "TimedPose.h"
 
-#include <algorithm>
 #include <stdexcept>
 
 namespace handeye::cli
@@ -43,48 +42,16 @@ std::vector<CapturedFrame> findBall(const CompareInputs& inputs, const io::Recor
     stoppable(output.progress("looking for the ball, " + label + ", frame")));
 }
 
-/// The frames in which the board is found and the camera's marker is tracked.
-std::vector<BoardHandEyeView> findBoard(const CompareInputs& inputs, const io::Recording& recording, const Progress& progress)
-{
-  recording.requireTransform(inputs.tools.markerToTracker);
-  const std::vector<std::string>& names = recording.transformNames();
-  const bool isTracked = std::find(names.begin(), names.end(), inputs.boardToTracker) != names.end();
-  std::vector<BoardHandEyeView> views;
-  for (int frame = 0; frame < recording.frameCount(); ++frame)
-  {
-    const io::TransformSample marker = poseOfFrame(recording, frame, inputs.tools.markerToTracker, inputs.tools.latencySec);
-    if (recording.hasImage(frame) && marker.isUsable())
-    {
-      const BoardDetection found = detectBoard(recording.image(frame), *inputs.board);
-      if (found.isUsable())
-      {
-        BoardHandEyeView view;
-        view.frame = frame;
-        view.markerToTracker = marker.transform;
-        view.ids = found.ids;
-        view.points_Board = found.points_Board;
-        view.points_Image = found.points_Image;
-        if (isTracked)
-        {
-          const io::TransformSample board = poseOfFrame(recording, frame, inputs.boardToTracker, inputs.tools.latencySec);
-          view.boardToTracker = board.isUsable() ? std::make_optional(board.transform) : std::nullopt;
-        }
-        views.push_back(std::move(view));
-      }
-    }
-    progress(frame + 1, recording.frameCount());
-  }
-  return views;
-}
-
 void readBoards(const CompareInputs& inputs, const CommandOutput& output, CompareCaptures& captures)
 {
   for (const std::string& path : inputs.boardRecordings)
   {
     const io::Recording recording = openRecording(path, inputs.tools, output);
     (void)cameraForRecording(captures.camera, recording);
-    std::vector<BoardHandEyeView> views =
-      findBoard(inputs, recording, stoppable(output.progress("looking for the board, " + path + ", frame")));
+    std::vector<BoardFrame> frames =
+      readBoardFrames(recording, *inputs.board, {}, stoppable(output.progress("looking for the board, " + path + ", frame")));
+    std::vector<BoardHandEyeView> views = boardHandEyeViews(recording, inputs.tools, inputs.trackedBoard, frames);
+    const std::string left = countStatuses(frames);
     std::string note;
     if (inputs.board->looksTheSameTurned())
     {
@@ -92,7 +59,8 @@ void readBoards(const CompareInputs& inputs, const CommandOutput& output, Compar
       note = turned ? ", " + std::to_string(*turned) + " of them numbered from the other end" : ", whose ends cannot be told apart";
     }
     captures.facts.push_back("Board: " + path + ", " + toString(*inputs.board) + ", found and tracked in " +
-      std::to_string(views.size()) + " of " + std::to_string(recording.frameCount()) + " frames" + note + ".");
+      std::to_string(views.size()) + " of " + std::to_string(recording.frameCount()) + " frames" + note +
+      (left.empty() ? "" : "; the others: " + left) + ".");
     captures.boards.push_back(std::move(views));
   }
 }

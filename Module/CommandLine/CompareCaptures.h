@@ -3,7 +3,7 @@
 #pragma once
 
 #include "BallOptions.h"
-#include "BoardHandEye.h"
+#include "BoardCapture.h"
 #include "Capture.h"
 #include "CommandOutput.h"
 #include "ComparedMethods.h"
@@ -22,7 +22,7 @@ struct CompareInputs
   std::string validation;
   std::vector<std::string> ballRecordings, boardRecordings;
   std::optional<BoardDescription> board;  ///< where there are recordings of one
-  std::string boardToTracker;             ///< the board's own transform, used where a recording has it
+  TrackedBoardNames trackedBoard;
   Eigen::Vector3d tip_Stylus = Eigen::Vector3d::Zero();
   double ballRadiusMm = 0;
   ToolNames tools;

@@ -31,7 +31,8 @@ struct CompareArguments
 {
   std::string validation, camera, stylus, report;
   std::vector<std::string> ballRecordings, boardRecordings;
-  std::string board, boardTransform = "BoardToTracker";
+  std::string board, boardRegistration;
+  TrackedBoardNames trackedBoard;
   double branchAndBoundSec = 60;
   double ballRadiusMm = 0;
   BallOptions ball;
@@ -122,7 +123,11 @@ int runCompare(CompareArguments& arguments)
   inputs.validation = arguments.validation;
   inputs.ballRecordings = arguments.ballRecordings;
   inputs.boardRecordings = arguments.boardRecordings;
-  inputs.boardToTracker = arguments.boardTransform;
+  inputs.trackedBoard = arguments.trackedBoard;
+  if (!arguments.boardRegistration.empty())
+  {
+    inputs.trackedBoard.boardToBoardMarker = readPhantomRegistration(arguments.boardRegistration);
+  }
   if (!arguments.board.empty())
   {
     inputs.board = parseBoard(arguments.board);
@@ -206,7 +211,14 @@ void addCompareCommand(CLI::App& app, int& exitCode)
   arguments->ball.addTo(*command);
   addTransformOption(*command, "--stylus-transform", arguments->tools.stylusToTracker, "stylus");
   addTransformOption(*command, "--marker-transform", arguments->tools.markerToTracker, "camera's marker");
-  addTransformOption(*command, "--board-transform", arguments->boardTransform, "board itself, where it is tracked,");
+  CLI::Option* tracked = command->add_option("--board-transform", arguments->trackedBoard.boardToTracker,
+    "Where the board is tracked, too: pose of its marker in the recording");
+  tracked->type_name("NAME")->needs(boards);
+  command
+    ->add_option("--board-registration", arguments->boardRegistration,
+      "How the board sits on its marker, as `handeye landmarks` writes it from touched corners")
+    ->type_name("phantom.json")
+    ->needs(tracked);
   addLatencyOption(*command, arguments->tools.latencySec);
   addComparisonOptions(*command, *arguments);
   arguments->output.addTo(*command);

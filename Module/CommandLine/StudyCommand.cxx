@@ -22,6 +22,7 @@ struct StudyArguments
 {
   std::string report;
   study::StudyOptions options;
+  double focalErrorPercent = 0;
   CommandOutput output;
 };
 
@@ -60,6 +61,7 @@ int runStudyCommand(StudyArguments& arguments)
     }
     return !isStopAsked();
   };
+  arguments.options.lensFocalShare = arguments.focalErrorPercent / 100;
   const study::StudyResult result = study::runStudy(arguments.options);
   if (result.isUsable())
   {
@@ -110,6 +112,11 @@ void addStudyCommand(CLI::App& app, int& exitCode)
     ->check(some)
     ->capture_default_str();
   command
+    ->add_option(
+      "--tilts", options.tiltRepetitions, "Repetitions for each range of the board's directions, 5 to 45 degrees; 0 for none")
+    ->check(some)
+    ->capture_default_str();
+  command
     ->add_option("--render", options.renderedRepetitions,
       "Repetitions whose balls and boards are rendered and found by the detectors, besides the others")
     ->check(some)
@@ -123,6 +130,24 @@ void addStudyCommand(CLI::App& app, int& exitCode)
     ->type_name("MM");
   command->add_option("--tracking-noise-deg", options.trackingSigmaDeg, "Of every pose, per axis")
     ->check(CLI::NonNegativeNumber)
+    ->capture_default_str()
+    ->type_name("DEG");
+  command
+    ->add_option("--lens-focal-error", arguments->focalErrorPercent,
+      "Error of the focal length that the methods are told, %, one standard deviation")
+    ->check(CLI::Range(0.0, 9.0))
+    ->capture_default_str()
+    ->type_name("PERCENT");
+  command->add_option("--lens-center-error", options.lensCenterPx, "The same of the principal point, px per axis")
+    ->check(CLI::NonNegativeNumber)
+    ->capture_default_str()
+    ->type_name("PX");
+  command->add_option("--board-tilt", options.size.boardTiltDeg, "The board is looked at from up to so far off its normal")
+    ->check(CLI::Range(1.0, 70.0))
+    ->capture_default_str()
+    ->type_name("DEG");
+  command->add_option("--board-roll", options.size.boardRollDeg, "The camera is turned about its axis by up to so much")
+    ->check(CLI::Range(0.0, 180.0))
     ->capture_default_str()
     ->type_name("DEG");
   command->add_flag("--no-noise", options.isNoiseFree, "No noise at all: every method must find the truth");

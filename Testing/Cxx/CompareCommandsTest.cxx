@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CommandRunner.h"
-
 #include "BoardPicture.h"
 #include "CaptureSimulation.h"
+
+#include "CommandRunner.h"
 
 #include <gtest/gtest.h>
 
@@ -114,8 +114,9 @@ Path CompareCommands::folder_;
 
 TEST_F(CompareCommands, BallAndBoard_EveryMethodIsARowAndFindsTheTruth)
 {
-  const CommandResult result = run(compare({ "--ball", file("first"), "--board-recording", file("board"), "--board", Board,
-    "--subsets", "2", "--time-limit", "2", "--report", file("report"), "--json", "-o", file("comparison.json") }));
+  const CommandResult result = run(
+    compare({ "--ball", file("first"), "--board-recording", file("board"), "--board", Board, "--board-transform", "BoardToTracker",
+      "--subsets", "2", "--time-limit", "2", "--report", file("report"), "--json", "-o", file("comparison.json") }));
   ASSERT_EQ(result.exitCode, 0) << result.err;
   const json comparison = result.json();
   EXPECT_EQ(comparison, json::parse(handeye::testing::readText(file("comparison.json"))));

@@ -22,7 +22,7 @@ StudyOptions small()
 {
   StudyOptions options;
   options.repetitions = 2;
-  options.subsetRepetitions = 0;
+  options.subsetRepetitions = options.tiltRepetitions = 0;
   options.noisePictures = 4;
   options.branchAndBoundSec = 0;
   options.cameras = { "webcam" };
@@ -175,6 +175,11 @@ TEST(HandEyeStudy, Claim_IsJudgedByTheNumbers)
   EXPECT_EQ(claim.lowestMaximum, "ml");
   EXPECT_DOUBLE_EQ(claim.branchAndBoundMean, 4);
   EXPECT_DOUBLE_EQ(claim.branchAndBoundMaximum, 3);
+  add("tracked-board", ComparedMethod::Target::Board, 0.5, 2);
+  claim = judgeClaim(result);
+  EXPECT_TRUE(claim.hasLowestMean) << "not one of the paper's five";
+  EXPECT_DOUBLE_EQ(claim.trackedBoardMean, 0.5);
+  EXPECT_EQ(claim.lowestMean, "tracked-board") << "but said";
   add("park", ComparedMethod::Target::Board, 1.5, 2.5);
   claim = judgeClaim(result);
   EXPECT_TRUE(claim.hasLowestMean);
@@ -182,10 +187,24 @@ TEST(HandEyeStudy, Claim_IsJudgedByTheNumbers)
   EXPECT_NE(claim.message.find("the maximum not"), std::string::npos) << claim.message;
 }
 
+TEST(HandEyeStudy, NarrowRange_IsWhyMotionsFail)
+{
+  StudyOptions options = small();
+  options.cameras = { "laparoscope" };
+  options.tiltRepetitions = 6;
+  const StudyResult result = runStudy(options);
+  const std::vector<StudyTiltResult>& tilts = result.cameras[0].byTilt;
+  ASSERT_EQ(tilts.size(), 6U);
+  EXPECT_EQ(tilts.front().tiltDeg, 5);
+  EXPECT_EQ(tilts.back().tiltDeg, 45);
+  EXPECT_GT(methodOf(tilts[1].truth, "park").errorPx.mean, 2 * methodOf(tilts.back().truth, "park").errorPx.mean);
+  EXPECT_LT(methodOf(tilts[1].truth, "ml").errorPx.mean, 2 * methodOf(tilts.back().truth, "ml").errorPx.mean);
+}
+
 TEST(HandEyeStudy, Report_HasATableACamera)
 {
   StudyOptions options = small();
-  options.subsetRepetitions = 2;
+  options.subsetRepetitions = options.tiltRepetitions = 2;
   const StudyResult result = runStudy(options);
   registerOffscreenRendering();
   const TemporaryFolder folder;
@@ -194,7 +213,7 @@ TEST(HandEyeStudy, Report_HasATableACamera)
   EXPECT_NE(html.find(report::escapeHtml(result.message)), std::string::npos);
   EXPECT_NE(html.find("tracked-board-lines"), std::string::npos);
   for (const char* const name : { "report.pdf", "webcam-methods.csv", "webcam-true.csv", "webcam-subsets.csv",
-         "webcam-distance.png", "webcam-samples.png", "webcam-repeatability.csv" })
+         "webcam-distance.png", "webcam-samples.png", "webcam-repeatability.csv", "webcam-tilt.png" })
   {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
   }
