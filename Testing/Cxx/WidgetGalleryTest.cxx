@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A picture of each widget with realistic data, light and dark, into HANDEYE_SCREENSHOT_DIR: for people to look at. What a program can say
-// of them is checked: they are not empty, differ between the palettes, and no text is cut off that has room.
+// A picture of each widget with realistic data, light and dark, into HANDEYE_SCREENSHOT_DIR: for people to look at. What a program
+// can say of them is checked: they are not empty, differ between the palettes, and have the size that they ask for.
 #include "CalibrationExport.h"
 #include "CoverageView.h"
 #include "DemoResults.h"
