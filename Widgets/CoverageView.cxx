@@ -141,7 +141,7 @@ QString CoverageView::describe(const Field& field) const
               .arg((field.row + 1) * height / Rows - 1)
               .arg(where);
   }
-  const QString samples = tr("%n sample(s)", nullptr, this->count(field));
+  const QString samples = counted(this->count(field), tr("1 sample"), tr("%1 samples"));
   const bool isNext = next_ && this->fieldOf(*next_) == field;
   return where + QStringLiteral(": ") + samples + (isNext ? tr(" – hold the ball here next") : QString());
 }

@@ -141,7 +141,7 @@ QPointF DirectionDome::cellCenter(int cell) const
 QString DirectionDome::describe(int cell) const
 {
   const int poses = poses_[std::size_t(cell)];
-  const QString count = tr("%n pose(s) of %1 wanted", nullptr, poses).arg(target_);
+  const QString count = tr("%1 of %2 poses").arg(poses).arg(target_);
   return cell == 0      ? tr("Upright: %1").arg(count)
     : ringOf(cell) == 1 ? tr("Leaning a little: %1").arg(count)
                         : tr("Leaning far: %1").arg(count);
@@ -237,7 +237,8 @@ void DirectionDome::paintWords(QPainter& painter, double top) const
   painter.setPen(this->palette().color(QPalette::WindowText));
   const QString counted = tr("%1 of %2 directions").arg(this->filledCount()).arg(cellCount());
   const QString first = hint_.isEmpty() ? counted : counted + QStringLiteral(" – ") + hint_;
-  painter.drawText(QRectF(0, top, this->width(), 2 * line + 2), Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, first);
+  QRectF used;
+  painter.drawText(QRectF(0, top, this->width(), 2 * line + 2), Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, first, &used);
   if (error_.isEmpty())
   {
     return;
@@ -249,7 +250,7 @@ void DirectionDome::paintWords(QPainter& painter, double top) const
   const QString shown = metrics.elidedText(error_, Qt::ElideRight, this->width() - iconSide - 8);
   const double width = metrics.horizontalAdvance(shown) + iconSide + (iconSide > 0 ? 6 : 0);
   const double left = (this->width() - width) / 2;
-  const double errorTop = top + 2 * line + 4;
+  const double errorTop = std::min(used.bottom(), top + 2 * line) + 4;
   if (iconSide > 0)
   {
     levelIcon(errorLevel_).paint(&painter, QRectF(left, errorTop, iconSide, iconSide).toRect());

@@ -6,14 +6,15 @@
 
 #include <QEvent>
 #include <QLabel>
+#include <QLocale>
 #include <QPalette>
 #include <QStackedLayout>
 #include <QStringList>
 #include <QTimer>
+#include <QVBoxLayout>
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkAxis.h>
 #include <vtkBrush.h>
-#include <vtkChartLegend.h>
 #include <vtkChartXY.h>
 #include <vtkColor.h>
 #include <vtkContextScene.h>
@@ -24,8 +25,10 @@
 #include <vtkPen.h>
 #include <vtkPlotPoints.h>
 #include <vtkRenderer.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
+#include <vtkTooltipItem.h>
 
 #include <algorithm>
 #include <cmath>
@@ -68,6 +71,38 @@ struct Ranges
   bool isEmpty = true;
 };
 
+/// The marks of the series, as VTK draws them and as the legend writes them.
+struct Marker
+{
+  int style;
+  char16_t sign;
+};
+constexpr Marker Markers[] = { { vtkPlotPoints::CIRCLE, u'\u25cf' }, { vtkPlotPoints::SQUARE, u'\u25a0' },
+  { vtkPlotPoints::DIAMOND, u'\u25c6' }, { vtkPlotPoints::CROSS, u'\u2715' }, { vtkPlotPoints::PLUS, u'\u271a' } };
+
+const Marker& markerOf(int index)
+{
+  return Markers[std::size_t(index) % std::size(Markers)];
+}
+
+/// About five round numbers (1, 2, 5 times a power of ten) for an axis. VTK's own choice does not ask how large the labels are.
+void setTicks(vtkAxis* axis, double begin, double end)
+{
+  const double rough = (end - begin) / 5;
+  const double power = std::pow(10, std::floor(std::log10(rough)));
+  const double step = power * (rough / power < 1.5 ? 1 : rough / power < 3.5 ? 2 : rough / power < 7.5 ? 5 : 10);
+  vtkNew<vtkDoubleArray> positions;
+  vtkNew<vtkStringArray> labels;
+  const int digits = std::max(0, int(-std::floor(std::log10(step) + 1e-9)));
+  // A label at the very end would be cut off.
+  for (double tick = step * std::ceil(begin / step - 1e-9); tick < end - 0.15 * step; tick += step)
+  {
+    positions->InsertNextValue(tick);
+    labels->InsertNextValue(QLocale().toString(tick, 'f', digits).toStdString());
+  }
+  axis->SetCustomTickPositions(positions, labels);
+}
+
 Ranges rangesOf(const QVector<ErrorSeries>& series)
 {
   Ranges ranges;
@@ -101,7 +136,11 @@ public:
   void styleAxis(vtkAxis* axis, const QString& title, const QWidget& widget, double ratio);
   void addSeries(const ErrorSeries& one, int index, const QPalette& palette, const Ranges& ranges, double ratio);
 
+  void writeLegend(const QPalette& palette);
+
   QStackedLayout* layout = nullptr;
+  QLabel* legend = nullptr;
+  QWidget* page = nullptr;
   QLabel* nothing = nullptr;
   QVTKOpenGLNativeWidget* gl = nullptr;
   QTimer renderTimer;
@@ -120,16 +159,31 @@ ErrorDistancePlot::ErrorDistancePlot(QWidget* parent)
   d->nothing = new QLabel(tr("No errors to show yet"), this);
   d->nothing->setAlignment(Qt::AlignCenter);
   d->nothing->setWordWrap(true);
-  d->gl = new QVTKOpenGLNativeWidget(this);
+  d->page = new QWidget(this);
+  auto* column = new QVBoxLayout(d->page);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(2);
+  d->legend = new QLabel(d->page);
+  d->legend->setWordWrap(true);
+  d->legend->setAlignment(Qt::AlignCenter);
+  d->gl = new QVTKOpenGLNativeWidget(d->page);
+  column->addWidget(d->legend);
+  column->addWidget(d->gl, 1);
   d->gl->setRenderWindow(d->window);
   d->gl->setAccessibleName(this->accessibleName());
   d->gl->setToolTip(tr("Projection error (px) of each sample against its distance from the camera (mm); the line is the mean. "
-                       "Wheel: zoom. Drag: move."));
+                       "Point at a mark for its numbers."));
   d->layout->addWidget(d->nothing);
-  d->layout->addWidget(d->gl);
+  d->layout->addWidget(d->page);
   d->view->SetRenderWindow(d->window);
   d->view->GetScene()->AddItem(d->chart);
-  d->chart->SetShowLegend(true);
+  d->chart->SetShowLegend(false);
+  // The whole is always seen; the wheel scrolls the page.
+  d->chart->SetZoomWithMouseWheel(false);
+  for (const int action : { vtkChart::PAN, vtkChart::ZOOM, vtkChart::SELECT })
+  {
+    d->chart->SetActionToButton(action, -1);
+  }
   d->chart->SetHiddenAxisBorder(0);
   d->renderTimer.setSingleShot(true);
   d->renderTimer.setInterval(0);
@@ -176,7 +230,7 @@ void ErrorDistancePlot::Private::build(const ErrorDistancePlot& plot)
 {
   chart->ClearPlots();
   const Ranges ranges = rangesOf(series);
-  layout->setCurrentWidget(ranges.isEmpty ? static_cast<QWidget*>(nothing) : gl);
+  layout->setCurrentWidget(ranges.isEmpty ? static_cast<QWidget*>(nothing) : page);
   QStringList words;
   const double ratio = plot.devicePixelRatioF();
   for (int index = 0; index < series.size(); ++index)
@@ -193,6 +247,8 @@ void ErrorDistancePlot::Private::build(const ErrorDistancePlot& plot)
   left->SetBehavior(vtkAxis::FIXED);
   bottom->SetRange(ranges.left, ranges.right);
   left->SetRange(0, ranges.top);
+  setTicks(bottom, ranges.left, ranges.right);
+  setTicks(left, 0, ranges.top);
   this->style(plot);
 }
 
@@ -211,13 +267,11 @@ void ErrorDistancePlot::Private::addSeries(
     mean->GetPen()->SetWidth(float(1.6 * ratio));
     mean->GetPen()->SetLineType(vtkPen::DASH_LINE);
   }
-  static const int markers[] = { vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND, vtkPlotPoints::CROSS,
-    vtkPlotPoints::PLUS };
   auto* points = vtkPlotPoints::SafeDownCast(chart->AddPlot(vtkChart::POINTS));
   points->SetInputData(makeTable(one.points, "error"), 0, 1);
   points->SetLabel(one.name.toStdString());
-  points->SetMarkerStyle(markers[std::size_t(index) % std::size(markers)]);
-  points->SetMarkerSize(float(8 * ratio));
+  points->SetMarkerStyle(markerOf(index).style);
+  points->SetMarkerSize(float(9 * ratio));
   points->GetPen()->SetColor(toVtk(color));
   points->GetPen()->SetWidth(float(1.5 * ratio));
   points->GetBrush()->SetColor(toVtk(color, 200));
@@ -228,7 +282,8 @@ void ErrorDistancePlot::Private::styleAxis(vtkAxis* axis, const QString& title, 
 {
   const QColor text = widget.palette().color(QPalette::Text);
   const QColor grid = widget.palette().color(QPalette::Mid);
-  const int size = int(std::lround(widget.fontInfo().pixelSize() * ratio));
+  // VTK multiplies by the window's resolution itself.
+  const int size = widget.fontInfo().pixelSize();
   axis->SetTitle(title.toStdString());
   for (vtkTextProperty* property : { axis->GetTitleProperties(), axis->GetLabelProperties() })
   {
@@ -242,6 +297,23 @@ void ErrorDistancePlot::Private::styleAxis(vtkAxis* axis, const QString& title, 
   axis->GetGridPen()->SetWidth(float(ratio));
 }
 
+/// Above the chart, where it covers no point.
+void ErrorDistancePlot::Private::writeLegend(const QPalette& palette)
+{
+  QStringList entries;
+  for (int index = 0; index < series.size(); ++index)
+  {
+    const ErrorSeries& one = series[index];
+    const QColor color = one.color.isValid() ? one.color : seriesColor(index, palette);
+    const QString mean = one.errorPx.count > 0
+      ? ErrorDistancePlot::tr(" (mean %1)").arg(withUnit(one.errorPx.mean, 2, ErrorDistancePlot::tr("px")))
+      : QString();
+    entries += QStringLiteral("<span style=\"color:%1\">%2</span>&nbsp;%3%4")
+                 .arg(color.name(), QString(QChar(markerOf(index).sign)), one.name.toHtmlEscaped(), mean.toHtmlEscaped());
+  }
+  legend->setText(entries.join(QStringLiteral(" &nbsp; &nbsp;")));
+}
+
 void ErrorDistancePlot::Private::style(const ErrorDistancePlot& plot)
 {
   const QPalette& palette = plot.palette();
@@ -251,14 +323,9 @@ void ErrorDistancePlot::Private::style(const ErrorDistancePlot& plot)
   chart->GetBackgroundBrush()->SetColor(toVtk(ground));
   this->styleAxis(chart->GetAxis(vtkAxis::BOTTOM), ErrorDistancePlot::tr("Distance from the camera [mm]"), plot, ratio);
   this->styleAxis(chart->GetAxis(vtkAxis::LEFT), ErrorDistancePlot::tr("Projection error [px]"), plot, ratio);
-  vtkChartLegend* legend = chart->GetLegend();
-  legend->SetHorizontalAlignment(vtkChartLegend::RIGHT);
-  legend->SetVerticalAlignment(vtkChartLegend::TOP);
-  legend->SetLabelSize(int(std::lround(plot.fontInfo().pixelSize() * ratio)));
-  const QColor text = palette.color(QPalette::Text);
-  legend->GetLabelProperties()->SetColor(text.redF(), text.greenF(), text.blueF());
-  legend->GetBrush()->SetColor(toVtk(ground, 220));
-  legend->GetPen()->SetColor(toVtk(palette.color(QPalette::Mid)));
+  vtkTooltipItem* tooltip = chart->GetTooltip();
+  tooltip->GetTextProperties()->SetFontSize(plot.fontInfo().pixelSize());
+  this->writeLegend(palette);
 }
 
 void ErrorDistancePlot::changeEvent(QEvent* event)

@@ -107,7 +107,7 @@ bool ExportPanel::Private::exportOne(const ExportFormat& format, const QDir& tar
     }
     for (const std::string& warning : result.warnings)
     {
-      const QString sentence = QString::fromStdString(warning);
+      const QString sentence = QStringLiteral("%1: %2").arg(QString::fromStdString(format.name), QString::fromStdString(warning));
       if (!warnings.contains(sentence))
       {
         warnings += sentence;
@@ -254,7 +254,8 @@ bool ExportPanel::exportNow()
       count += d->exportOne(format, target, problems, warnings) ? 1 : 0;
     }
   }
-  const QString done = tr("%n format(s) written to %1.", nullptr, count).arg(QDir::toNativeSeparators(target.absolutePath()));
+  const QString what = counted(count, tr("1 format"), tr("%1 formats"));
+  const QString done = tr("%1 written to %2.").arg(what, QDir::toNativeSeparators(target.absolutePath()));
   if (!problems.isEmpty())
   {
     d->showMessage((problems + QStringList(done)).join(QLatin1Char('\n')), Level::Error);
@@ -272,6 +273,7 @@ bool ExportPanel::exportNow()
     }
     d->ui.writtenBrowser->append(QStringLiteral("<p style=\"margin-top:8px\">%1</p>").arg(notes));
   }
+  d->ui.writtenBrowser->moveCursor(QTextCursor::Start);
   emit exported(d->written);
   return problems.isEmpty();
 }

@@ -311,6 +311,12 @@ void HandEyeCalibrationPanel::exitModule()
   }
 }
 
+void HandEyeCalibrationPanel::showEvent(QShowEvent* event)
+{
+  QWidget::showEvent(event);
+  enterModule();
+}
+
 void HandEyeCalibrationPanel::changeEvent(QEvent* event)
 {
   QWidget::changeEvent(event);
@@ -362,6 +368,11 @@ bool HandEyeCalibrationPanel::openFile(const QString& path)
   if (d->step == WizardStep::Stylus && ending == QStringLiteral("json"))
   {
     d->workbench->loadStylus(path);
+    return true;
+  }
+  if (d->step == WizardStep::Overlay && ending == QStringLiteral("json"))
+  {
+    d->workbench->loadRegistration(path);
     return true;
   }
   if (cameras.contains(ending) || ending == QStringLiteral("json"))

@@ -47,12 +47,13 @@ public slots:
   void goNext();
   void goBack();
 
-  /// The module is shown, or no longer: the views of the desktop are taken and given back.
+  /// The module is shown, or no longer: the views of the desktop are taken and given back. Showing the panel enters the module, too.
   void enterModule();
   void exitModule();
 
 protected:
   void changeEvent(QEvent* event) override;
+  void showEvent(QShowEvent* event) override;
 
 private:
   class Private;

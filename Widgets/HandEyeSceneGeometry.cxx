@@ -59,6 +59,16 @@ void addBox(vtkAppendPolyData* all, const Eigen::Vector3d& center, const Eigen::
   all->AddInputData(box->GetOutput());
 }
 
+vtkSmartPointer<vtkPolyData> ballOf(int resolution)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(1);
+  sphere->SetThetaResolution(resolution);
+  sphere->SetPhiResolution(resolution);
+  sphere->Update();
+  return sphere->GetOutput();
+}
+
 vtkSmartPointer<vtkPolyData> output(vtkAppendPolyData* all)
 {
   all->Update();
@@ -157,12 +167,12 @@ vtkSmartPointer<vtkPolyData> shaftShape(const Eigen::Vector3d& tip_Stylus)
 
 vtkSmartPointer<vtkPolyData> unitBall()
 {
-  vtkNew<vtkSphereSource> sphere;
-  sphere->SetRadius(1);
-  sphere->SetThetaResolution(32);
-  sphere->SetPhiResolution(32);
-  sphere->Update();
-  return sphere->GetOutput();
+  return ballOf(32);
+}
+
+vtkSmartPointer<vtkPolyData> coarseBall()
+{
+  return ballOf(10);
 }
 
 }  // namespace handeye

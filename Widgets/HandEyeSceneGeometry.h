@@ -35,4 +35,7 @@ vtkSmartPointer<vtkPolyData> shaftShape(const Eigen::Vector3d& tip_Stylus);
 /// A ball of unit radius at the origin.
 vtkSmartPointer<vtkPolyData> unitBall();
 
+/// The same for a wireframe.
+vtkSmartPointer<vtkPolyData> coarseBall();
+
 }  // namespace handeye

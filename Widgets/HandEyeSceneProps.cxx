@@ -16,6 +16,7 @@
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWeakPointer.h>
@@ -166,14 +167,19 @@ public:
     }
     camera.mapper->SetInputData(cameraShape());
     ball.mapper->SetInputData(unitBall());
-    next.mapper->SetInputData(unitBall());
+    next.mapper->SetInputData(coarseBall());
     next.actor->GetProperty()->SetRepresentationToWireframe();
-    next.actor->GetProperty()->SetLineWidth(1.5F);
     next.actor->GetProperty()->LightingOff();
     frustum.actor->GetProperty()->LightingOff();
-    frustum.actor->GetProperty()->SetLineWidth(2);
+    this->setLineWidths(1);
     captured.clear();
     touched.clear();
+  }
+
+  void setLineWidths(double pixelRatio)
+  {
+    next.actor->GetProperty()->SetLineWidth(float(1.5 * pixelRatio));
+    frustum.actor->GetProperty()->SetLineWidth(float(2 * pixelRatio));
   }
 
   std::vector<vtkProp*> props()
@@ -287,6 +293,11 @@ void HandEyeSceneProps::addTo(vtkRenderer* renderer)
     }
   }
   d->renderer = renderer;
+  if (renderer && renderer->GetRenderWindow())
+  {
+    // Qt's windows say by their resolution how many pixels of the device a pixel is.
+    d->setLineWidths(std::max(1.0, renderer->GetRenderWindow()->GetDPI() / 72.0));
+  }
 }
 
 void HandEyeSceneProps::setTrackerVisible(bool visible)

@@ -55,6 +55,10 @@ HostLink::~HostLink()
 
 void HostLink::enter(QWidget* video, QObject* receiver)
 {
+  if (isEntered_)
+  {
+    return;
+  }
   isEntered_ = true;
   host_.setVideoWidget(video);
   host_.setFileHandler(receiver);

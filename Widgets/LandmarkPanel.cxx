@@ -56,6 +56,8 @@ public:
   void updateRow(int row, const QVector<int>& paired);
   void updateButtons();
   void updateVerdict();
+  QString usableVerdict() const;
+  QString refusal() const;
   void showVerdict(const QString& text, Level level);
   QString stateOf(int row) const;
   int nextUntouched(int after) const;
@@ -278,6 +280,41 @@ void LandmarkPanel::Private::showVerdict(const QString& text, Level level)
   ui.verdictLabel->setPalette(palette);
 }
 
+/// The fit's residual, and what to expect elsewhere, which is another thing.
+QString LandmarkPanel::Private::usableVerdict() const
+{
+  const int count = int(result->residualsMm.size());
+  QString text = LandmarkPanel::tr("RMS %1 over %2.")
+                   .arg(withUnit(result->rmsMm, 2, LandmarkPanel::tr("mm")),
+                     counted(count, LandmarkPanel::tr("1 landmark"), LandmarkPanel::tr("%1 landmarks")));
+  if (!result->landmarkTreMm.empty())
+  {
+    const double largest = *std::max_element(result->landmarkTreMm.begin(), result->landmarkTreMm.end());
+    text += LandmarkPanel::tr(" The expected error at them is up to %1.").arg(withUnit(largest, 2, LandmarkPanel::tr("mm")));
+  }
+  if (!result->suggestedOrder.empty())
+  {
+    text += LandmarkPanel::tr(" They fit about as well in another order: check that they were touched in the order of the list.");
+  }
+  return text;
+}
+
+/// The sentence that came, whose numbers count the landmarks that were touched.
+QString LandmarkPanel::Private::refusal() const
+{
+  QString text = QString::fromStdString(result->message);
+  if (!text.isEmpty())
+  {
+    text[0] = text[0].toUpper();
+  }
+  const QVector<int> paired = q.pairs().landmarks;
+  if (!paired.isEmpty() && paired.last() != paired.size() - 1)
+  {
+    text += LandmarkPanel::tr(" (Numbers count the touched landmarks only.)");
+  }
+  return text;
+}
+
 void LandmarkPanel::Private::updateVerdict()
 {
   const int touched = q.pairs().landmarks.size();
@@ -287,12 +324,7 @@ void LandmarkPanel::Private::updateVerdict()
   }
   else if (result)
   {
-    QString text = QString::fromStdString(result->message);
-    if (touched >= FewestLandmarks && !result->residualsMm.empty())
-    {
-      text = LandmarkPanel::tr("RMS %1 over %n landmark(s). %2", nullptr, touched)
-               .arg(withUnit(result->rmsMm, 2, LandmarkPanel::tr("mm")), text);
-    }
+    const QString text = result->isUsable() ? this->usableVerdict() : this->refusal();
     this->showVerdict(text, levelOf(*result));
   }
   else if (touched < FewestLandmarks)
@@ -301,7 +333,8 @@ void LandmarkPanel::Private::updateVerdict()
   }
   else
   {
-    this->showVerdict(LandmarkPanel::tr("%n landmark(s) touched.", nullptr, touched), Level::Info);
+    this->showVerdict(
+      counted(touched, LandmarkPanel::tr("1 landmark touched."), LandmarkPanel::tr("%1 landmarks touched.")), Level::Info);
   }
 }
 
@@ -357,7 +390,8 @@ bool LandmarkPanel::loadModelLandmarks(const QString& path)
       landmarks.append(landmark);
     }
     d->fileError.clear();
-    d->ui.fileLabel->setText(tr("%1: %n landmark(s)", nullptr, landmarks.size()).arg(QFileInfo(path).fileName()));
+    d->ui.fileLabel->setText(
+      QFileInfo(path).fileName() + QStringLiteral(": ") + counted(landmarks.size(), tr("1 landmark"), tr("%1 landmarks")));
     d->ui.fileLabel->setToolTip(path);
     this->setLandmarks(landmarks);
     return true;

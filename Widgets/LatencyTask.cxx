@@ -97,8 +97,15 @@ void LatencyTask::evaluate()
     const std::lock_guard lock(mutex_);
     collection = std::exchange(collection_, std::nullopt);
   }
-  const TemporalCalibrationResult result =
-    calibrateLatency(collection->sightings, collection->marker, collection->stylus, tip_Stylus_, *camera_);
+  TemporalCalibrationResult result;
+  try
+  {
+    result = calibrateLatency(collection->sightings, collection->marker, collection->stylus, tip_Stylus_, *camera_);
+  }
+  catch (const std::exception& error)
+  {
+    result.message = error.what();
+  }
   QMetaObject::invokeMethod(
     this,
     [this, result]

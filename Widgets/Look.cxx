@@ -74,6 +74,11 @@ QIcon levelIcon(Level level)
   return icon(QStringLiteral("info"));
 }
 
+QString counted(int count, const QString& one, const QString& many)
+{
+  return count == 1 ? one : many.arg(count);
+}
+
 QString withUnit(double value, int digits, const QString& unit)
 {
   if (!std::isfinite(value))

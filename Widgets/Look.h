@@ -36,6 +36,9 @@ QIcon icon(const QString& name);
 /// "info", "ok", "warning", "error": a shape for each level.
 QIcon levelIcon(Level level);
 
+/// "1 sample", "4 samples": one of two texts by a count; %1 in the second is the count. English needs no translation file then.
+QString counted(int count, const QString& one, const QString& many);
+
 /// A number with a fixed count of digits and its unit in the language of the person: "0.42 px"; an en dash if it is not finite.
 QString withUnit(double value, int digits, const QString& unit);
 

@@ -172,7 +172,7 @@ void SampleTable::Private::updateActions()
     excludedCount += row.excluded ? 1 : 0;
     usedCount += row.used && !row.excluded ? 1 : 0;
   }
-  QString text = SampleTable::tr("%n sample(s)", nullptr, model->rows().size());
+  QString text = counted(model->rows().size(), SampleTable::tr("1 sample"), SampleTable::tr("%1 samples"));
   if (editable && !model->rows().isEmpty())
   {
     text += SampleTable::tr(", %1 used").arg(usedCount);
@@ -183,8 +183,9 @@ void SampleTable::Private::updateActions()
 
 void SampleTable::Private::requestExclusion(const QVector<int>& ids, bool excluded)
 {
-  const QString text = excluded ? SampleTable::tr("leave out %n sample(s)", nullptr, ids.size())
-                                : SampleTable::tr("use %n sample(s) again", nullptr, ids.size());
+  const QString text = excluded
+    ? counted(ids.size(), SampleTable::tr("leave out a sample"), SampleTable::tr("leave out %1 samples"))
+    : counted(ids.size(), SampleTable::tr("use a sample again"), SampleTable::tr("use %1 samples again"));
   stack->push(new Request(
     text, [this, ids, excluded] { emit q.excludeRequested(ids, excluded); },
     [this, ids, excluded] { emit q.excludeRequested(ids, !excluded); }));
@@ -327,7 +328,7 @@ void SampleTable::deleteSelected()
   if (d->editable && !ids.isEmpty())
   {
     d->stack->push(new Request(
-      tr("delete %n sample(s)", nullptr, ids.size()), [this, ids] { emit deleteRequested(ids); },
+      counted(ids.size(), tr("delete a sample"), tr("delete %1 samples")), [this, ids] { emit deleteRequested(ids); },
       [this, ids] { emit restoreRequested(ids); }));
   }
 }

@@ -260,8 +260,8 @@ QVariant SampleTableModel::headerData(int section, Qt::Orientation orientation, 
   const QString residual = residualTitle_.isEmpty() ? tr("Residual") : residualTitle_;
   if (role == Qt::DisplayRole)
   {
-    const QString titles[ColumnCount] = { tr("Use"), tr("Picture"), tr("No."), tr("Status"), tr("%1 [px]").arg(residual),
-      tr("%1 [mm]").arg(residual), tr("Distance [mm]") };
+    const QString titles[ColumnCount] = { tr("Use"), tr("Picture"), tr("No."), tr("Status"), tr("%1\n[px]").arg(residual),
+      tr("%1\n[mm]").arg(residual), tr("Distance\n[mm]") };
     return titles[section];
   }
   if (role == Qt::ToolTipRole)

@@ -120,7 +120,7 @@ QSize StagesView::sizeHint() const
 
 QSize StagesView::minimumSizeHint() const
 {
-  return { 240, this->heightForWidth(240) };
+  return { 200, 60 };
 }
 
 bool StagesView::hasHeightForWidth() const

@@ -37,7 +37,7 @@ const QColor Panel(18, 20, 24, 215);
 void strokeTwice(QPainter& painter, const QPainterPath& path, const QColor& color, qreal width, Qt::PenStyle style = Qt::SolidLine)
 {
   painter.setBrush(Qt::NoBrush);
-  painter.setPen(QPen(Rim, width + 2, style, Qt::FlatCap, Qt::RoundJoin));
+  painter.setPen(QPen(Rim, width + 2, Qt::SolidLine, Qt::FlatCap, Qt::RoundJoin));
   painter.drawPath(path);
   painter.setPen(QPen(color, width, style, Qt::FlatCap, Qt::RoundJoin));
   painter.drawPath(path);

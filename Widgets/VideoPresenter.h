@@ -5,6 +5,7 @@
 #include "HandEyeWorkbench.h"
 #include "VideoView.h"
 
+#include <QElapsedTimer>
 #include <QObject>
 
 namespace handeye
@@ -35,6 +36,8 @@ private:
   HandEyeWorkbench& workbench_;
   VideoView& view_;
   double opacity_ = 0.65;
+  QElapsedTimer sinceShown_;
+  qint64 costMs_ = 0;  ///< of the last frame, drawing included
   bool hasLens_ = false;
 };
 

@@ -21,6 +21,7 @@ enum class RoomMotion
   Pivot,       ///< the stylus turns about its tip, which rests in a divot
   Placements,  ///< the ball is held still at places all over the view, moving quickly in between
   Free,        ///< the ball moves smoothly through the view: for temporal calibration and for the overlay
+  Landmarks,   ///< the tip is held on one landmark of the phantom after another
   Tour         ///< 12 s of Pivot, 40 s of Placements, 20 s of Free, and again
 };
 

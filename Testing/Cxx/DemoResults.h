@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "CameraFile.h"
 #include "CalibrationStep.h"
+#include "CameraFile.h"
 #include "HandEyeGuidance.h"
 #include "PivotStep.h"
 #include "Recording.h"
@@ -27,9 +27,9 @@ struct DemoResults
   std::vector<handeye::CapturedFrame> captured =
     handeye::readCapture(calibrationRecording, {}, camera, pivot.calibration.tip_Stylus, ballRadiusMm);
   handeye::CalibrationStepResult calibration = calibrate();
-  handeye::ValidationStepResult validation = handeye::validateCapture(
-    handeye::readCapture(validationRecording, {}, camera, pivot.calibration.tip_Stylus, ballRadiusMm), camera,
-    calibration.calibration.markerToCamera);
+  handeye::ValidationStepResult validation =
+    handeye::validateCapture(handeye::readCapture(validationRecording, {}, camera, pivot.calibration.tip_Stylus, ballRadiusMm),
+      camera, calibration.calibration.markerToCamera);
 
 private:
   handeye::CalibrationStepResult calibrate() const

@@ -6,19 +6,22 @@
 #include <QImage>
 #include <QPalette>
 #include <QSurfaceFormat>
+#include <QStyle>
 #include <QTest>
 #include <QVTKOpenGLNativeWidget.h>
 
+#include <cmath>
+
 /// main() of a test of widgets with OpenGL in them: like QTEST_MAIN, but with VTK's surface format, which has to be set first.
-#define HANDEYE_WIDGET_TEST_MAIN(TestClass)                                                                                            \
-  int main(int argc, char** argv)                                                                                                      \
-  {                                                                                                                                    \
-    QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());                                                         \
-    QApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);                                                                              \
-    QApplication application(argc, argv);                                                                                              \
-    QApplication::setStyle(QStringLiteral("Fusion"));                                                                                  \
-    TestClass test;                                                                                                                    \
-    return QTest::qExec(&test, argc, argv);                                                                                            \
+#define HANDEYE_WIDGET_TEST_MAIN(TestClass)                                                                                        \
+  int main(int argc, char** argv)                                                                                                  \
+  {                                                                                                                                \
+    QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());                                                     \
+    QApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);                                                                          \
+    QApplication application(argc, argv);                                                                                          \
+    QApplication::setStyle(QStringLiteral("Fusion"));                                                                              \
+    TestClass test;                                                                                                                \
+    return QTest::qExec(&test, argc, argv);                                                                                        \
   }
 
 namespace testing_widgets
