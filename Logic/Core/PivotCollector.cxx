@@ -134,7 +134,9 @@ PivotCollector::Outcome PivotCollector::keep(const Eigen::Isometry3d& stylusToTr
       return Outcome::Redundant;
     }
     --crowd_[orientationCell(poses_[giving].linear())];
-    poses_[giving] = stylusToTracker;
+    // The order stays that of time: whether the tip moved is judged by it.
+    poses_.erase(poses_.begin() + std::ptrdiff_t(giving));
+    poses_.push_back(stylusToTracker);
   }
   ++crowd_[cell];
   ++counts_.kept;

@@ -77,6 +77,16 @@ bool PoseTrack::add(double timeSec, const Eigen::Isometry3d& transform, bool isV
   return true;
 }
 
+std::vector<double> PoseTrack::timesSec() const
+{
+  std::vector<double> times;
+  for (const Pose& pose : poses_)
+  {
+    times.push_back(pose.timeSec);
+  }
+  return times;
+}
+
 PoseAtTime PoseTrack::at(double timeSec) const
 {
   if (poses_.empty())

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <deque>
 #include <string>
+#include <vector>
 
 namespace handeye
 {
@@ -69,6 +70,8 @@ public:
 
   bool isEmpty() const { return poses_.empty(); }
   std::size_t size() const { return poses_.size(); }
+  /// Of every pose that is kept, valid or not, in order.
+  [[nodiscard]] std::vector<double> timesSec() const;
   double newestSec() const { return poses_.empty() ? 0 : poses_.back().timeSec; }
   void clear() { poses_.clear(); }
 

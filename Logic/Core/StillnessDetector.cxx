@@ -16,6 +16,8 @@ namespace
 constexpr std::size_t WindowCapacity = 256;
 /// Share of the samples of a beginning rest that may lie beyond the limits.
 constexpr double ToleratedShare = 0.1;
+/// A time that goes back by more than this is a clock that was set, not a late sample.
+constexpr double ClockJumpSec = 10;
 
 double angleBetween(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b)
 {
@@ -91,12 +93,12 @@ std::optional<Rest> StillnessDetector::add(double timeSec, const Eigen::Isometry
   {
     throw std::invalid_argument("stillness: sample " + std::to_string(added_) + " holds a number that is not finite");
   }
+  std::optional<Rest> ended = this->finishIfClockWasSet(timeSec);
   if (added_ > 0 && timeSec < newestSec_)
   {
     ++added_;
-    return std::nullopt;
+    return ended;
   }
-  std::optional<Rest> ended;
   if (added_ > 0 && timeSec - newestValidSec_ > options_.maximumGapSec)
   {
     ended = this->finish();
@@ -132,11 +134,23 @@ std::optional<Rest> StillnessDetector::addInvalid(double timeSec)
   {
     throw std::invalid_argument("stillness: the time of sample " + std::to_string(added_) + " is not finite");
   }
+  std::optional<Rest> ended = this->finishIfClockWasSet(timeSec);
   const bool isGap = added_ > 0 && timeSec - newestValidSec_ > options_.maximumGapSec;
   newestSec_ = added_ > 0 ? std::max(newestSec_, timeSec) : timeSec;
   newestValidSec_ = added_ > 0 ? newestValidSec_ : timeSec;
   ++added_;
-  return isGap ? this->finish() : std::nullopt;
+  return isGap ? this->finish() : ended;
+}
+
+/// Times that go far back begin anew; one sample from the future must not silence all that follow.
+std::optional<Rest> StillnessDetector::finishIfClockWasSet(double timeSec)
+{
+  if (added_ == 0 || timeSec >= newestSec_ - ClockJumpSec)
+  {
+    return std::nullopt;
+  }
+  newestSec_ = newestValidSec_ = timeSec;
+  return this->finish();
 }
 
 void StillnessDetector::tryToBegin()

@@ -72,7 +72,8 @@ public:
   /// @param tip_Tool mm @throws std::invalid_argument if the tip is not finite or the options do not check
   explicit StillnessDetector(const Eigen::Vector3d& tip_Tool, const StillnessOptions& options = {});
 
-  /// A valid pose at a time. A sample that is older than the one before it is left out.
+  /// A valid pose at a time. A sample that is older than the one before it is left out; by more than 10 s, and the clock was set:
+  /// the rest ends and everything begins anew.
   /// @return the rest that this sample ended
   /// @throws std::invalid_argument if a number is not finite
   std::optional<Rest> add(double timeSec, const Eigen::Isometry3d& toolToWorld);
@@ -105,6 +106,7 @@ private:
   void tryToBegin();
   void include(const Sample& sample);
   std::optional<Rest> end();
+  std::optional<Rest> finishIfClockWasSet(double timeSec);
 
   Eigen::Vector3d tip_Tool_;
   StillnessOptions options_;

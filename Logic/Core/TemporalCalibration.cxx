@@ -5,6 +5,7 @@
 #include "NumberWords.h"
 #include "PointLineRegistration.h"
 #include "Statistics.h"
+#include "TipTrack.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,14 +33,27 @@ std::string inMs(double seconds, int digits)
 struct Fit
 {
   std::vector<double> residualsPx;
+  std::vector<double> averagedPx2;  ///< by how much interpolation has lowered what the tracker's noise does to a squared residual
   std::vector<std::size_t> sightings;
 
   double meanSquare() const
   {
+    return meanOf([&](std::size_t i) { return residualsPx[i] * residualsPx[i]; });
+  }
+
+  /// As if every pose had been measured at its moment.
+  double comparableMeanSquare() const
+  {
+    return meanOf([&](std::size_t i) { return residualsPx[i] * residualsPx[i] + averagedPx2[i]; });
+  }
+
+private:
+  template<typename Term> double meanOf(Term term) const
+  {
     double sum = 0;
-    for (double residual : residualsPx)
+    for (std::size_t i = 0; i < residualsPx.size(); ++i)
     {
-      sum += residual * residual;
+      sum += term(i);
     }
     return residualsPx.empty() ? std::numeric_limits<double>::infinity() : sum / double(residualsPx.size());
   }
@@ -48,27 +62,18 @@ struct Fit
 class Problem
 {
 public:
-  Problem(const std::vector<BallSighting>& sightings, const PoseTrack& marker, const PoseTrack& stylus,
-    const Eigen::Vector3d& tip_Stylus, double focalPx, const std::optional<Eigen::Isometry3d>& markerToCamera)
+  Problem(const std::vector<BallSighting>& sightings, const TipTrack& tips, double focalPx,
+    const std::optional<Eigen::Isometry3d>& markerToCamera)
     : sightings_(sightings)
-    , marker_(marker)
-    , stylus_(stylus)
-    , tip_Stylus_(tip_Stylus)
+    , tips_(tips)
     , focalPx_(focalPx)
     , markerToCamera_(markerToCamera)
   {
   }
 
-  std::optional<Eigen::Vector3d> tip_Marker(std::size_t sighting, double latencySec) const
+  std::optional<TipTrack::Place> place(std::size_t sighting, double latencySec) const
   {
-    const double timeSec = sightings_[sighting].timeSec + latencySec;
-    const PoseAtTime markerToTracker = marker_.at(timeSec), stylusToTracker = stylus_.at(timeSec);
-    if (!markerToTracker.isUsable() || !stylusToTracker.isUsable())
-    {
-      return std::nullopt;
-    }
-    const Eigen::Vector3d tip_Tracker = stylusToTracker.transform * tip_Stylus_;
-    return markerToTracker.transform.inverse() * tip_Tracker;
+    return tips_.at(sightings_[sighting].timeSec + latencySec);
   }
 
   Fit fitAt(double latencySec, const std::vector<std::size_t>& candidates) const
@@ -77,10 +82,12 @@ public:
     std::vector<PointLinePair> pairs;
     for (std::size_t sighting : candidates)
     {
-      if (const std::optional<Eigen::Vector3d> tip = tip_Marker(sighting, latencySec))
+      if (const std::optional<TipTrack::Place> tip = place(sighting, latencySec))
       {
         const double pxPerMm = focalPx_ / sightings_[sighting].distanceMm;
-        pairs.push_back({ *tip, Eigen::Vector3d::Zero(), sightings_[sighting].ray_Camera, pxPerMm * pxPerMm });
+        const double noisePx = tips_.noiseMm() * pxPerMm;
+        pairs.push_back({ tip->tip_Marker, Eigen::Vector3d::Zero(), sightings_[sighting].ray_Camera, pxPerMm * pxPerMm });
+        fit.averagedPx2.push_back(2 * noisePx * noisePx * (1 - tip->noiseShare));  // across the ray there are two axes
         fit.sightings.push_back(sighting);
       }
     }
@@ -108,9 +115,7 @@ public:
 
 private:
   const std::vector<BallSighting>& sightings_;
-  const PoseTrack& marker_;
-  const PoseTrack& stylus_;
-  Eigen::Vector3d tip_Stylus_;
+  const TipTrack& tips_;
   double focalPx_;
   std::optional<Eigen::Isometry3d> markerToCamera_;
 };
@@ -138,10 +143,10 @@ std::vector<std::size_t> withoutOutliers(const Fit& fit)
   return good;
 }
 
-/// The minimum and curvature of cost(x) = c0 + c1 x + c2 x^2 through the fine steps.
+/// The minimum and curvature of cost(x) = c0 + c1 x + c2 x^2 through the fine steps; from their middle, or as a latency.
 struct Parabola
 {
-  double minimumSec = 0, lowest = 0, curvature = 0;
+  double minimumSec = 0, curvature = 0;
 };
 
 Parabola parabolaThrough(const Eigen::VectorXd& offsetsSec, const Eigen::VectorXd& costs)
@@ -154,18 +159,16 @@ Parabola parabolaThrough(const Eigen::VectorXd& offsetsSec, const Eigen::VectorX
   Parabola parabola;
   parabola.curvature = c(2) / (FineStepSec * FineStepSec);
   parabola.minimumSec = -c(1) / (2 * c(2)) * FineStepSec;
-  parabola.lowest = std::max(0.0, c(0) - c(1) * c(1) / (4 * c(2)));
   return parabola;
 }
 
-/// How many times larger the mean squared residual is a tenth of a second off. About once where the ball rests: noise alone gives
-/// the cost a shape, since poses between two of the tracker's are averages with less noise.
+/// How many times larger the mean squared residual is a tenth of a second off. About once where the ball rests.
 double growthOf(const Problem& problem, double latencySec, const std::vector<std::size_t>& sightings)
 {
   constexpr double AwaySec = 0.1;
-  const double here = problem.fitAt(latencySec, sightings).meanSquare();
-  const double earlier = problem.fitAt(latencySec - AwaySec, sightings).meanSquare();
-  const double later = problem.fitAt(latencySec + AwaySec, sightings).meanSquare();
+  const double here = problem.fitAt(latencySec, sightings).comparableMeanSquare();
+  const double earlier = problem.fitAt(latencySec - AwaySec, sightings).comparableMeanSquare();
+  const double later = problem.fitAt(latencySec + AwaySec, sightings).comparableMeanSquare();
   return std::min(earlier, later) / std::max(here, 1e-12);
 }
 
@@ -178,7 +181,7 @@ std::vector<std::size_t> trackedAround(const Problem& problem, double latencySec
     bool isTracked = true;
     for (int step = -FineSteps - 2; step <= FineSteps + 2; ++step)
     {
-      isTracked = isTracked && problem.tip_Marker(sighting, latencySec + step * FineStepSec).has_value();
+      isTracked = isTracked && problem.place(sighting, latencySec + step * FineStepSec).has_value();
     }
     if (isTracked)
     {
@@ -188,32 +191,80 @@ std::vector<std::size_t> trackedAround(const Problem& problem, double latencySec
   return tracked;
 }
 
-/// The latency by two parabolas, one around the other's minimum, and its uncertainty; an infinite one where there is no minimum.
-void refine(const Problem& problem, double coarseSec, const std::vector<std::size_t>& good, Result& result)
+/// The parabola around the minimum near a latency, by another around the first one's; nothing where there is no minimum.
+std::optional<Parabola> parabolaNear(const Problem& problem, double startSec, const std::vector<std::size_t>& sightings)
 {
-  double center = coarseSec;
+  double centerSec = startSec;
   Parabola parabola;
-  result.sigmaSec = std::numeric_limits<double>::infinity();
   for (int round = 0; round < 2; ++round)
   {
     Eigen::VectorXd offsetsSec(2 * FineSteps + 1), costs(2 * FineSteps + 1);
     for (int step = -FineSteps; step <= FineSteps; ++step)
     {
       offsetsSec(step + FineSteps) = step * FineStepSec;
-      costs(step + FineSteps) = problem.fitAt(center + step * FineStepSec, good).meanSquare();
+      costs(step + FineSteps) = problem.fitAt(centerSec + step * FineStepSec, sightings).comparableMeanSquare();
     }
     parabola = parabolaThrough(offsetsSec, costs);
     if (!(parabola.curvature > 0) || !costs.allFinite())
     {
-      return;
+      return std::nullopt;
     }
-    center += std::clamp(parabola.minimumSec, -2 * FineStepSec, 2 * FineStepSec);
+    centerSec += std::clamp(parabola.minimumSec, -2 * FineStepSec, 2 * FineStepSec);
   }
+  parabola.minimumSec = centerSec;
+  return parabola;
+}
+
+/// How much the minimum moves when a part of the recording is left out (delete-a-group jackknife): what is wrong for a while, such as
+/// poses interpolated over a fast turn, is in it, and noise that repeats from frame to frame. Infinite where a part alone
+/// decides.
+double jackknifeSec(const Problem& problem, double latencySec, const std::vector<std::size_t>& sightings)
+{
+  constexpr std::size_t Groups = 8;
+  std::vector<double> minimaSec;
+  for (std::size_t group = 0; group < Groups; ++group)
+  {
+    std::vector<std::size_t> rest;
+    for (std::size_t i = 0; i < sightings.size(); ++i)
+    {
+      if (i * Groups / sightings.size() != group)
+      {
+        rest.push_back(sightings[i]);
+      }
+    }
+    const std::optional<Parabola> parabola = parabolaNear(problem, latencySec, rest);
+    if (!parabola)
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+    minimaSec.push_back(parabola->minimumSec);
+  }
+  const double average = summarize(minimaSec).mean;
+  double squares = 0;
+  for (double minimumSec : minimaSec)
+  {
+    squares += (minimumSec - average) * (minimumSec - average);
+  }
+  return std::sqrt(squares * double(Groups - 1) / double(Groups));
+}
+
+/// The latency and its uncertainty; an infinite one where there is no minimum.
+void refine(const Problem& problem, double coarseSec, const std::vector<std::size_t>& good, Result& result)
+{
+  result.sigmaSec = std::numeric_limits<double>::infinity();
+  const std::optional<Parabola> parabola = parabolaNear(problem, coarseSec, good);
+  if (!parabola)
+  {
+    return;
+  }
+  // What is there, not what the parabola has at its lowest: between poses that are far apart the cost is no parabola.
+  const double meanSquare = problem.fitAt(parabola->minimumSec, good).meanSquare();
   const double count = double(good.size());
-  const double varianceOfOne = parabola.lowest * count / (2 * count - 7);  // per axis of a residual, px^2
-  result.latencySec = center;
-  result.sigmaSec = std::sqrt(varianceOfOne / (parabola.curvature * count));
-  result.rmsPx = std::sqrt(parabola.lowest);
+  const double varianceOfOne = meanSquare * count / (2 * count - 7);  // per axis of a residual, px^2
+  result.latencySec = parabola->minimumSec;
+  result.sigmaSec =
+    std::max(std::sqrt(varianceOfOne / (parabola->curvature * count)), jackknifeSec(problem, parabola->minimumSec, good));
+  result.rmsPx = std::sqrt(meanSquare);
   result.usedCount = int(good.size());
 }
 
@@ -296,7 +347,8 @@ TemporalCalibrationResult calibrateLatency(const std::vector<BallSighting>& sigh
 {
   options.check();
   checkInput(sightings);
-  const Problem problem(sightings, marker, stylus, tip_Stylus, (camera.fx() + camera.fy()) / 2, markerToCamera);
+  const TipTrack tips(marker, stylus, tip_Stylus);
+  const Problem problem(sightings, tips, (camera.fx() + camera.fy()) / 2, markerToCamera);
   Result result;
   const auto [coarseSec, fit] = coarseMinimum(problem, sightings.size(), options);
   if (fit.residualsPx.empty())

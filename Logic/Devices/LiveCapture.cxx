@@ -37,6 +37,24 @@ std::optional<Eigen::Vector3d> placeOf(const io::SessionSample& sample)
   return isPoint ? std::optional<Eigen::Vector3d>(Eigen::Vector3d(place[0], place[1], place[2])) : std::nullopt;
 }
 
+/// The ball must keep still in the marker's frame; how the stylus is turned about it does not matter.
+StillnessOptions stillnessOf(const LiveCaptureOptions& options)
+{
+  StillnessOptions stillness;
+  stillness.touch = StillnessOptions::Touch::Either;
+  stillness.minimumDurationSec = options.stillSec;
+  stillness.maximumMotionMm = options.stillMm;
+  stillness.maximumGapSec = std::min(0.2, options.stillSec);
+  stillness.maximumExcursionSec = 0.1;
+  return stillness;
+}
+
+const LiveCaptureOptions& checked(const LiveCaptureOptions& options)
+{
+  options.check();
+  return options;
+}
+
 }  // namespace
 
 void LiveCaptureOptions::check() const
@@ -53,19 +71,19 @@ LiveCapture::LiveCapture(
   : camera_(camera)
   , tip_Stylus_(tip_Stylus)
   , session_(session)
-  , options_(options)
+  , options_(checked(options))
+  , stillness_(tip_Stylus, stillnessOf(options))
 {
-  options_.check();
-  for (const auto& sample : session.samples())
+  for (const auto& [id, sample] : session.samples())
   {
-    if (const std::optional<Eigen::Vector3d> place_Marker = placeOf(sample.second))
+    if (const std::optional<Eigen::Vector3d> place_Marker = placeOf(sample))
     {
-      places_Marker_.push_back(*place_Marker);
+      places_Marker_[id] = *place_Marker;
     }
   }
 }
 
-std::optional<Eigen::Vector3d> LiveCapture::tipOf(const PairedFrame& frame, std::string& problem) const
+std::optional<Eigen::Isometry3d> LiveCapture::stylusToMarker(const PairedFrame& frame, std::string& problem) const
 {
   for (const std::string& name : { options_.markerToTracker, options_.stylusToTracker })
   {
@@ -76,55 +94,39 @@ std::optional<Eigen::Vector3d> LiveCapture::tipOf(const PairedFrame& frame, std:
       return std::nullopt;
     }
   }
-  const Eigen::Vector3d tip_Tracker = frame.poses.at(options_.stylusToTracker).transform * tip_Stylus_;
-  return frame.poses.at(options_.markerToTracker).transform.inverse() * tip_Tracker;
+  return frame.poses.at(options_.markerToTracker).transform.inverse() * frame.poses.at(options_.stylusToTracker).transform;
 }
 
-bool LiveCapture::isStill() const
+/// A sample that was set aside, or is gone, leaves its place to another.
+bool LiveCapture::isTaken(const Eigen::Vector3d& tip_Marker) const
 {
-  if (window_.size() < 3 || window_.back().timeSec - window_.front().timeSec < options_.stillSec)
-  {
-    return false;
-  }
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Moment& moment : window_)
-  {
-    mean += moment.tip_Marker / double(window_.size());
-  }
-  double squared = 0;
-  for (const Moment& moment : window_)
-  {
-    squared += (moment.tip_Marker - mean).squaredNorm() / double(window_.size());
-  }
-  return std::sqrt(squared) < options_.stillMm;
+  return std::any_of(places_Marker_.begin(), places_Marker_.end(),
+    [&](const auto& place)
+    {
+      const auto sample = session_.samples().find(place.first);
+      const bool counts = sample != session_.samples().end() && !sample->second.isExcluded;
+      return counts && (place.second - tip_Marker).norm() < options_.differentPlaceMm;
+    });
 }
 
 LiveCapture::Step LiveCapture::add(const PairedFrame& frame)
 {
   std::string problem;
-  const std::optional<Eigen::Vector3d> tip_Marker = tipOf(frame, problem);
-  if (!tip_Marker)
+  const std::optional<Eigen::Isometry3d> stylusToMarker = this->stylusToMarker(frame, problem);
+  if (!stylusToMarker)
   {
-    window_.clear();
+    stillness_.addInvalid(frame.image.timeSec);
     return step(Status::NoPose, problem);
   }
-  if (!window_.empty() && frame.image.timeSec <= window_.back().timeSec)
-  {
-    window_.clear();  // a clock that was set
-  }
-  window_.push_back({ frame.image.timeSec, *tip_Marker });
-  // One more than the window's length stays, so that it spans all of it.
-  while (window_.size() > 2 && window_.back().timeSec - window_[1].timeSec >= options_.stillSec)
-  {
-    window_.pop_front();
-  }
-  const bool isKnown = std::any_of(places_Marker_.begin(), places_Marker_.end(),
-    [&](const Eigen::Vector3d& place_Marker) { return (place_Marker - *tip_Marker).norm() < options_.differentPlaceMm; });
-  if (isKnown)
+  stillness_.add(frame.image.timeSec, *stylusToMarker);
+  const Eigen::Vector3d tip_Marker = *stylusToMarker * tip_Stylus_;
+  if (isTaken(tip_Marker))
   {
     return step(Status::SamePlace, "this place is taken: move on");
   }
-  return isStill() ? store(frame, *tip_Marker) : step(Status::Moving, "hold the ball still");
+  const std::optional<Rest> rest = stillness_.current();
+  const bool isStill = rest && rest->endSec == frame.image.timeSec;  // this frame itself, not an excursion
+  return isStill ? store(frame, tip_Marker) : step(Status::Moving, "hold the ball still");
 }
 
 LiveCapture::Step LiveCapture::store(const PairedFrame& frame, const Eigen::Vector3d& tip_Marker)
@@ -154,8 +156,8 @@ LiveCapture::Step LiveCapture::store(const PairedFrame& frame, const Eigen::Vect
   accepted.status = Status::Accepted;
   accepted.sampleId = session_.addSample(image, sample);
   accepted.message = "sample " + std::to_string(accepted.sampleId) + " is stored";
-  places_Marker_.push_back(tip_Marker);
-  window_.clear();
+  places_Marker_[accepted.sampleId] = tip_Marker;
+  stillness_.finish();
   return accepted;
 }
 

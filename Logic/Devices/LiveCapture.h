@@ -6,13 +6,13 @@
 #include "CameraModel.h"
 #include "FramePairing.h"
 #include "Session.h"
+#include "StillnessDetector.h"
 
 #include <Eigen/Core>
 
-#include <deque>
+#include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace handeye::devices
 {
@@ -23,7 +23,7 @@ struct LiveCaptureOptions
   std::string markerToTracker = "MarkerToTracker";
   double ballRadiusMm = 15;
   double stillSec = 0.4;  ///< the ball counts as held still after this long ...
-  double stillMm = 0.6;   ///< ... within this distance (RMS over the window) of where it is on average, in the marker's frame
+  double stillMm = 1.2;   ///< ... within this distance of the middle of its rest, in the marker's frame (see StillnessDetector)
   double differentPlaceMm = 15;  ///< a sample this near to an accepted one is the same place and not taken again
   BallDetectionOptions detection;
 
@@ -35,9 +35,8 @@ struct LiveCaptureOptions
 ///
 ///     tip_Marker = inverse(markerToTracker) * stylusToTracker * tip_Stylus,
 ///
-/// with the poses of the frame's own moment. A frame of which a tool was not seen, or whose poses are stale or too far apart in
-/// time,
-/// begins the window anew; why is said.
+/// with the poses of the frame's own moment. Of a frame of which a tool was not seen, or whose poses are stale or too far apart in time,
+/// why is said; 0.2 s without poses begin the rest anew. Samples that were set aside (or removed) leave their place to others.
 ///
 /// Not safe to share between threads.
 class LiveCapture
@@ -67,22 +66,16 @@ public:
   Step add(const PairedFrame& frame);
 
 private:
-  struct Moment
-  {
-    double timeSec;
-    Eigen::Vector3d tip_Marker;
-  };
-
-  std::optional<Eigen::Vector3d> tipOf(const PairedFrame& frame, std::string& problem) const;
-  bool isStill() const;
+  std::optional<Eigen::Isometry3d> stylusToMarker(const PairedFrame& frame, std::string& problem) const;
+  bool isTaken(const Eigen::Vector3d& tip_Marker) const;
   Step store(const PairedFrame& frame, const Eigen::Vector3d& tip_Marker);
 
   CameraModel camera_;
   Eigen::Vector3d tip_Stylus_;
   io::Session& session_;
   LiveCaptureOptions options_;
-  std::deque<Moment> window_;
-  std::vector<Eigen::Vector3d> places_Marker_;
+  StillnessDetector stillness_;
+  std::map<int, Eigen::Vector3d> places_Marker_;  ///< by sample
 };
 
 /// What a session keeps of a paired frame: its poses with their statuses, and how they came together.

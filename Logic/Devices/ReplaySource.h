@@ -5,7 +5,13 @@
 #include "Source.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
+
+namespace handeye::io
+{
+class Recording;
+}
 
 namespace handeye::devices
 {
@@ -24,11 +30,9 @@ struct ReplayOptions
   void check() const;
 };
 
-/// Plays a recording (sequence metafile, or folder) as if it were live: each frame's poses and then its image, with the frame's
-/// time.
-/// A pose that the recording says is not valid is delivered as not valid. Ends with the state Finished, unless it loops. A
-/// recording
-/// that cannot be read says so in the status.
+/// Plays a recording (sequence metafile, or folder) as if it were live: each frame's poses and then its image, with the frame's time.
+/// A pose that the recording says is not valid is delivered as not valid. Ends with the state Finished, unless it loops. A frame that
+/// cannot be read is left out and counted as refused; a recording that cannot be opened is Finished at once. Both say so in the status.
 class ReplaySource : public Source
 {
 public:
@@ -45,6 +49,9 @@ protected:
 
 private:
   bool waitForTurn(double streamSec, double startSec);
+  void deliverFrame(const io::Recording& recording, int frame, double timeSec);
+  std::optional<double> playOnce(const io::Recording& recording, double startSec, double loopOffsetSec);
+  void play(const io::Recording& recording);
 
   ReplayOptions options_;
   std::mutex stepMutex_;

@@ -75,6 +75,8 @@ void SampleBuffer::close()
 void SampleBuffer::reopen()
 {
   const std::lock_guard lock(mutex_);
+  samples_.clear();
+  bytes_ = 0;
   isClosed_ = false;
 }
 

@@ -32,10 +32,11 @@ Source::~Source() = default;
 
 void Source::start()
 {
-  if (thread_.joinable())
+  if (thread_.joinable() && status().state != SourceState::Finished)
   {
     return;
   }
+  stopThread();
   isStopping_ = false;
   buffer_.reopen();
   setState(SourceState::Connecting, "connecting to " + name());
@@ -106,6 +107,13 @@ void Source::setProblem(const std::string& message)
 {
   const std::lock_guard lock(mutex_);
   status_.state = SourceState::Connecting;
+  status_.message = status_.lastProblem = message;
+}
+
+void Source::finish(const std::string& message)
+{
+  const std::lock_guard lock(mutex_);
+  status_.state = SourceState::Finished;
   status_.message = status_.lastProblem = message;
 }
 

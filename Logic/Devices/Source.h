@@ -63,6 +63,7 @@ public:
   /// What a person calls it: "127.0.0.1:18944", "camera 0", a file's name.
   virtual std::string name() const = 0;
 
+  /// Again after stop(), or after it came to its end: with an empty buffer.
   void start();
   /// Returns when the thread has ended; samples in the buffer can still be taken.
   void stop();
@@ -83,6 +84,8 @@ protected:
   /// @return false if it was woken by stop()
   bool sleepFor(double seconds);
 
+  /// Nothing more can come, and why: what cannot be read today will not be tomorrow. The last problem, too.
+  void finish(const std::string& message);
   /// Connecting again, and why: the message, and the last problem.
   void setProblem(const std::string& message);
   void setState(SourceState state, const std::string& message);

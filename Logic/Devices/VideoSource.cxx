@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VideoSource.h"
 
+#include "FileError.h"
+
 #include <opencv2/videoio.hpp>
 
 #include <algorithm>
@@ -26,14 +28,13 @@ public:
   explicit OpenCVGrabber(const VideoSourceOptions& options)
     : isCamera_(isDeviceNumber(options.device))
   {
-    const bool isOpen = isCamera_ ? capture_.open(std::stoi(options.device)) : capture_.open(options.device);
-    if (!isOpen)
+    if (!open(options.device))
     {
       throw std::runtime_error(isCamera_
           ? "camera " + options.device + " cannot be opened: is it plugged in, and used by no one else?"
           : "'" + options.device + "' cannot be opened as a video");
     }
-    isFinite_ = !isCamera_ && options.device.find("://") == std::string::npos;
+    isFinite_ = isVideoFile(options.device);
     if (isCamera_ && options.width > 0 && options.height > 0)
     {
       capture_.set(cv::CAP_PROP_FRAME_WIDTH, options.width);
@@ -59,6 +60,20 @@ public:
   bool isFinite() const override { return isFinite_; }
 
 private:
+  bool open(const std::string& device)
+  {
+    if (isCamera_)
+    {
+      return capture_.open(std::stoi(device));
+    }
+    // A server that does not answer must not hold stop() for longer than this; other backends know no such limit.
+    constexpr int TimeoutMs = 3000;
+    const bool isUrl = !isVideoFile(device) &&
+      capture_.open(
+        device, cv::CAP_FFMPEG, { cv::CAP_PROP_OPEN_TIMEOUT_MSEC, TimeoutMs, cv::CAP_PROP_READ_TIMEOUT_MSEC, TimeoutMs });
+    return isUrl || (isVideoFile(device) && capture_.open(device));
+  }
+
   cv::VideoCapture capture_;
   bool isCamera_ = false;
   bool isFinite_ = false;
@@ -67,6 +82,28 @@ private:
 };
 
 }  // namespace
+
+bool isVideoFile(const std::string& device)
+{
+  return !isDeviceNumber(device) && device.find("://") == std::string::npos;
+}
+
+void requireReadable(const VideoSourceOptions& options)
+{
+  if (!isVideoFile(options.device))
+  {
+    return;
+  }
+  try
+  {
+    OpenCVGrabber grabber(options);
+  }
+  catch (const std::runtime_error&)
+  {
+    throw io::FileError(
+      options.device, "it cannot be opened as a video; a video file or a pattern such as frames/%04d.jpg is expected");
+  }
+}
 
 VideoSource::VideoSource(const VideoSourceOptions& options)
   : VideoSource(options, [options] { return std::make_unique<OpenCVGrabber>(options); })
@@ -92,7 +129,20 @@ std::string VideoSource::name() const
 
 void VideoSource::run()
 {
-  const std::unique_ptr<FrameGrabber> grabber = open_();
+  std::unique_ptr<FrameGrabber> grabber;
+  try
+  {
+    grabber = open_();
+  }
+  catch (const std::exception& error)
+  {
+    if (isVideoFile(options_.device))
+    {
+      finish(error.what());
+      return;
+    }
+    throw;
+  }
   countConnection();
   setState(SourceState::Streaming, "streaming from " + name());
   deliverFrames(*grabber);
@@ -102,7 +152,7 @@ void VideoSource::run()
   }
   else if (!isStopping())
   {
-    setState(SourceState::Connecting, name() + " gives no pictures any more: is it unplugged? Trying again");
+    setProblem(name() + " gives no pictures any more: is it unplugged? Trying again");
   }
 }
 

@@ -31,7 +31,8 @@ using OpenGrabber = std::function<std::unique_ptr<FrameGrabber>()>;
 struct VideoSourceOptions
 {
   std::string name = "Video";  ///< of the samples
-  /// "0" is the first camera; otherwise a file, a pattern of an image sequence ("frames/%04d.jpg") or a URL.
+  /// "0" is the first camera; otherwise a file, a pattern of an image sequence ("frames/%04d.jpg") or a URL. A camera or URL that is not
+  /// there is tried again; a file that cannot be opened is Finished at once.
   std::string device = "0";
   int width = 0;  ///< px, asked of a camera; 0: as it likes
   int height = 0;
@@ -39,10 +40,15 @@ struct VideoSourceOptions
   SampleBufferOptions buffer;
 };
 
+/// Whether the device names a file or an image sequence, as opposed to a camera or a URL.
+bool isVideoFile(const std::string& device);
+
+/// @throws io::FileError for a file, or an image sequence, that cannot be opened as a video; a camera or URL is not looked at
+void requireReadable(const VideoSourceOptions& options);
+
 /// A camera or a video file through OpenCV.
 ///
-/// A live frame's time is this computer's clock when the frame had arrived, so that the camera's own delay is part of the latency
-/// that
+/// A live frame's time is this computer's clock when the frame had arrived, so that the camera's own delay is part of the latency that
 /// temporal calibration finds. A camera that is unplugged says so in the status and is opened again every half second. A file ends
 /// with the state Finished.
 class VideoSource : public Source

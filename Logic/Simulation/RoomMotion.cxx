@@ -61,6 +61,15 @@ RoomScript::RoomScript(const RoomOptions& options)
 {
   const double middleMm = (options.nearestMm + options.furthestMm) / 2;
   phantomToTracker_ = cameraToTracker_ * rigid({ 0.3, -0.4, 0.9 }, { -45, 60, middleMm + 90 });
+  if (options.motion == RoomMotion::Landmarks)
+  {
+    const Eigen::Isometry3d modelToTracker = phantomToTracker_ * options.modelToPhantom;
+    for (const Eigen::Vector3d& landmark_Model : options.landmarks_Model)
+    {
+      places_Tracker_.push_back(modelToTracker * landmark_Model);
+    }
+    return;
+  }
   for (const Eigen::Vector3d& place_Camera : makePlaces(options))
   {
     places_Tracker_.push_back(cameraToTracker_ * place_Camera);
@@ -148,7 +157,8 @@ bool RoomScript::isHeldStill(double timeSec) const
 {
   const Moment moment = momentOf(timeSec);
   const double inPeriod = std::fmod(moment.timeSec, options_.holdSec + options_.moveSec);
-  return moment.motion == RoomMotion::Placements && inPeriod > 0.25 * options_.holdSec && inPeriod < options_.holdSec;
+  const bool isHolding = moment.motion == RoomMotion::Placements || moment.motion == RoomMotion::Landmarks;
+  return isHolding && inPeriod > 0.25 * options_.holdSec && inPeriod < options_.holdSec;
 }
 
 }  // namespace handeye::simulation

@@ -63,13 +63,13 @@ RoomOptions::RoomOptions()
 void RoomOptions::check() const
 {
   const bool isGood = camera.hasImageSize() && ballRadiusMm > 0 && placeCount > 0 && holdSec > 0 && moveSec > 0 &&
-    nearestMm > 2 * ballRadiusMm && furthestMm > nearestMm && trackingSigmaMm >= 0 && trackingSigmaDeg >= 0 && dropOutShare >= 0 &&
+    (motion != RoomMotion::Landmarks || !landmarks_Model.empty()) && nearestMm > 2 * ballRadiusMm && furthestMm > nearestMm && trackingSigmaMm >= 0 && trackingSigmaDeg >= 0 && dropOutShare >= 0 &&
     dropOutShare < 1 && imageNoise >= 0 && blurPx >= 0 && std::isfinite(videoDelaySec) && tip_Stylus.norm() > 1;
   if (!isGood)
   {
     throw std::invalid_argument(
       "simulated room: a camera with its image size, positive sizes, times and depths (nearest beyond two "
-      "radii of the ball), and noise that is not negative are expected");
+      "radii of the ball), noise that is not negative, and landmarks for the motion over them are expected");
   }
 }
 
@@ -144,6 +144,8 @@ std::string toString(RoomMotion motion)
       return "placements";
     case RoomMotion::Free:
       return "free";
+    case RoomMotion::Landmarks:
+      return "landmarks";
     case RoomMotion::Tour:
       return "tour";
   }

@@ -21,6 +21,7 @@ enum class RoomMotion
   Pivot,       ///< the stylus turns about its tip, which rests in a divot
   Placements,  ///< the ball is held still at places all over the view, moving quickly in between
   Free,        ///< the ball moves smoothly through the view: for temporal calibration and for the overlay
+  Landmarks,   ///< the tip is held on one landmark of the phantom after another
   Tour         ///< 12 s of Pivot, 40 s of Placements, 20 s of Free, and again
 };
 
@@ -30,6 +31,8 @@ struct RoomOptions
   Eigen::Isometry3d markerToCamera;  ///< p_Camera = markerToCamera * p_Marker, mm
   Eigen::Vector3d tip_Stylus;        ///< the ball's centre, mm
   Eigen::Isometry3d modelToPhantom;  ///< p_Phantom = modelToPhantom * p_Model, mm
+  /// Of Landmarks, mm: p_Phantom = modelToPhantom * landmark_Model.
+  std::vector<Eigen::Vector3d> landmarks_Model;
   double ballRadiusMm = 15;
   RoomMotion motion = RoomMotion::Tour;
   int placeCount = 15;                       ///< of Placements
@@ -103,7 +106,7 @@ private:
   std::unique_ptr<const Parts> parts_;
 };
 
-/// "pivot", "placements", "free", "tour"
+/// "pivot", "placements", "free", "landmarks", "tour"
 std::string toString(RoomMotion motion);
 
 }  // namespace handeye::simulation

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TimedPose.h"
 
+#include "FileError.h"
 #include "NumberText.h"
+#include "NumberWords.h"
 #include "PoseTrack.h"
+#include "Statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,12 +32,13 @@ double missingLatency(const io::Recording& recording, double latencySec)
   return std::abs(missingSec) < 1e-6 ? 0 : missingSec;
 }
 
-/// A gap over which poses are interpolated: what is usual between the frames of a recording (from nearby: enough of them for a
-/// median) and half as much, at least 0.1 s; at most 0.5 s, beyond which nobody knows where the tool was.
-double largestGapSec(const io::Recording& recording, int frame)
+/// Beyond this nobody knows where the tool was between two frames.
+constexpr double MostGapSec = 0.5;
+
+/// The time that is usual between the frames of a recording, from nearby: enough of them for a median. 0 without times.
+double usualSpacingSec(const io::Recording& recording, int frame)
 {
   constexpr int Nearby = 15;
-  constexpr double LeastSec = 0.1, MostSec = 0.5, Slack = 1.5;
   std::vector<double> spacings;
   for (int i = std::max(1, frame - Nearby); i < std::min(recording.frameCount(), frame + Nearby); ++i)
   {
@@ -44,13 +48,14 @@ double largestGapSec(const io::Recording& recording, int frame)
       spacings.push_back(*after - *before);
     }
   }
-  if (spacings.empty())
-  {
-    return LeastSec;
-  }
-  const auto middle = spacings.begin() + std::ptrdiff_t(spacings.size() / 2);
-  std::nth_element(spacings.begin(), middle, spacings.end());
-  return std::clamp(Slack * *middle, LeastSec, MostSec);
+  return spacings.empty() ? 0 : median(spacings);
+}
+
+/// A gap over which poses are interpolated: what is usual and half as much, at least 0.1 s.
+double largestGapSec(const io::Recording& recording, int frame)
+{
+  constexpr double LeastSec = 0.1, Slack = 1.5;
+  return std::clamp(Slack * usualSpacingSec(recording, frame), LeastSec, MostGapSec);
 }
 
 /// Adds a frame's pose; returns false where it has no time.
@@ -111,6 +116,14 @@ io::TransformSample poseOfFrame(const io::Recording& recording, int frame, const
 std::vector<std::string> latencyNotes(const io::Recording& recording, double latencySec)
 {
   const double appliedSec = recording.appliedLatencySec(), missingSec = missingLatency(recording, latencySec);
+  const double spacingSec = missingSec == 0 ? 0 : usualSpacingSec(recording, recording.frameCount() / 2);
+  if (spacingSec > MostGapSec)
+  {
+    throw io::FileError(recording.path(),
+      "its frames are " + fixedDigits(spacingSec, 1) +
+        " s apart (single placements, a session): a latency cannot be applied to poses " +
+        "that far apart. Give --latency when they are taken, to `handeye capture` or `handeye record`");
+  }
   if (appliedSec == 0)
   {
     return {};

@@ -11,6 +11,7 @@
 #include "StopSignal.h"
 #include "StreamRecorder.h"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -110,6 +111,13 @@ private:
   bool isSaid_ = false;
 };
 
+/// Without those that were set aside.
+int usedCount(const io::Session& session)
+{
+  return int(std::count_if(
+    session.samples().begin(), session.samples().end(), [](const auto& sample) { return !sample.second.isExcluded; }));
+}
+
 int runCapture(CaptureArguments& arguments)
 {
   const io::CameraFile camera = io::readCameraFile(arguments.camera);
@@ -131,11 +139,9 @@ int runCapture(CaptureArguments& arguments)
   arguments.sources.start();
   catchStopSignals();
   devices::FramePairing pairing(arguments.sources.pairing);
+  const auto isFull = [&] { return usedCount(session) >= arguments.count; };
   const auto isDone = [&]
-  {
-    return isStopAsked() || int(session.samples().size()) >= arguments.count ||
-      (arguments.seconds > 0 && arguments.sources.streamSec() > arguments.seconds);
-  };
+  { return isStopAsked() || isFull() || (arguments.seconds > 0 && arguments.sources.streamSec() > arguments.seconds); };
   while (!isDone() && arguments.sources.isAlive())
   {
     if (std::optional<devices::DeviceSample> sample = arguments.sources.pop(0.1))
@@ -150,16 +156,19 @@ int runCapture(CaptureArguments& arguments)
       capturing.add(*frame);
     }
   }
+  const std::string ofSources = arguments.sources.message();
   arguments.sources.stop();
   recording.close();
-  const bool isFull = int(session.samples().size()) >= arguments.count;
+  const std::string message = std::to_string(usedCount(session)) + " samples are in " + arguments.session +
+    (isFull() ? "" : "; " + std::to_string(arguments.count) + " were asked for. " + ofSources);
   CommandOutput output = arguments.output;
   output.file.clear();
-  return output.finish({ { "schema", "handeye-capture/1" }, { "status", isFull ? "ok" : "too_few_samples" },
-    { "message",
-      std::to_string(session.samples().size()) + " samples are in " + arguments.session +
-        (isFull ? "" : "; " + std::to_string(arguments.count) + " were asked for. " + arguments.sources.message()) },
-    { "samples", session.samples().size() }, { "sources", arguments.sources.statusJson() } });
+  if (isFull())
+  {
+    output.say(message);
+  }
+  return output.finish({ { "schema", "handeye-capture/1" }, { "status", isFull() ? "ok" : "too_few_samples" },
+    { "message", message }, { "samples", session.samples().size() }, { "sources", arguments.sources.statusJson() } });
 }
 
 }  // namespace

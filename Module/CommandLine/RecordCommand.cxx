@@ -25,6 +25,23 @@ struct RecordArguments
   CommandOutput output;
 };
 
+/// What is in the files now.
+std::string wrote(const RecordArguments& arguments, const devices::StreamRecorder& recorder)
+{
+  std::string text;
+  if (!arguments.output.file.empty())
+  {
+    text =
+      std::to_string(recorder.frameCount()) + " frames, each with the poses of its moment, written to " + arguments.output.file;
+  }
+  if (!arguments.poses.empty())
+  {
+    text += (text.empty() ? "" : "; ") + std::to_string(recorder.poseCount()) + " poses at their own times, written to " +
+      arguments.poses;
+  }
+  return text;
+}
+
 int runRecord(RecordArguments& arguments)
 {
   if (arguments.output.file.empty() && arguments.poses.empty())
@@ -56,19 +73,29 @@ int runRecord(RecordArguments& arguments)
   while (!isDone() && record(pairing.takeRest()))
   {
   }
+  const std::string missing = arguments.sources.missingAtEnd();
   arguments.sources.stop();
   const bool isWhole = recorder.close();
   if (recorder.leftOutCount() > 0)
   {
     arguments.output.warn({ std::to_string(recorder.leftOutCount()) + " were left out, the first: " + recorder.leftOutReason() });
   }
-  const bool isGood = isWhole && recorder.frameCount() + recorder.poseCount() > 0;
-  nlohmann::json result = { { "schema", "handeye-record/1" }, { "status", isGood ? "ok" : "not_recorded" },
+  const bool isAnything = recorder.frameCount() + recorder.poseCount() > 0;
+  const bool isGood = isWhole && isAnything && missing.empty();
+  nlohmann::json result = { { "schema", "handeye-record/1" },
+    { "status",
+      isGood                    ? "ok"
+        : isWhole && isAnything ? "source_missing"
+                                : "not_recorded" },
     { "frames", recorder.frameCount() }, { "poses", recorder.poseCount() }, { "sources", arguments.sources.statusJson() } };
   result["message"] = recorder.hasFailed() ? recorder.error()
-    : isGood ? std::to_string(recorder.frameCount()) + " frames and " + std::to_string(recorder.poseCount()) + " poses recorded"
-             : "nothing came: " + arguments.sources.message();
-  arguments.output.say(result["message"].get<std::string>());
+    : !isAnything                          ? "nothing came: " + arguments.sources.message()
+    : missing.empty()                      ? wrote(arguments, recorder)
+                                           : missing + "; what came is kept: " + wrote(arguments, recorder);
+  if (isGood)
+  {
+    arguments.output.say(result["message"].get<std::string>());
+  }
   CommandOutput output = arguments.output;
   output.file.clear();
   return output.finish(result);

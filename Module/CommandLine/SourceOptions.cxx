@@ -4,6 +4,7 @@
 
 #include "CommonOptions.h"
 #include "OpenIGTLinkClient.h"
+#include "Recording.h"
 #include "ReplaySource.h"
 #include "VideoSource.h"
 
@@ -52,60 +53,77 @@ void LiveSources::addTo(CLI::App& command)
   addLatencyOption(command, pairing.latencySec);
   command.add_option("--image", pairing.imageName, "Which video, where there are several; the first that comes otherwise")
     ->type_name("NAME");
-  command.add_option("--wait", waitSec_, "How long to wait for the sources to come up, s")->capture_default_str()->type_name("SEC");
+  command.add_option("--wait", waitSec_, "How long a server or camera may be silent before this ends, s")
+    ->capture_default_str()
+    ->type_name("SEC");
+}
+
+void LiveSources::add(std::unique_ptr<devices::Source> source, bool isLive)
+{
+  Entry entry;
+  entry.source = std::move(source);
+  entry.isLive = isLive;
+  entries_.push_back(std::move(entry));
 }
 
 void LiveSources::start()
 {
   for (const std::string& server : servers_)
   {
-    sources_.push_back(std::make_unique<devices::OpenIGTLinkClient>(parseServer(server)));
+    add(std::make_unique<devices::OpenIGTLinkClient>(parseServer(server)), true);
   }
   if (!video_.empty())
   {
     devices::VideoSourceOptions options;
     options.device = video_;
-    sources_.push_back(std::make_unique<devices::VideoSource>(options));
+    devices::requireReadable(options);
+    // Who names a camera wants its pictures, also beside a server that has some.
+    pairing.imageName = pairing.imageName.empty() ? options.name : pairing.imageName;
+    add(std::make_unique<devices::VideoSource>(options), !devices::isVideoFile(options.device));
   }
   if (!replay_.empty())
   {
     devices::ReplayOptions options;
     options.recording = replay_;
     options.speed = speed_;
-    sources_.push_back(std::make_unique<devices::ReplaySource>(options));
+    static_cast<void>(io::Recording::open(options.recording));  // one that cannot be read is said now
+    add(std::make_unique<devices::ReplaySource>(options), false);
   }
-  startSec_ = devices::systemTimeSec();
-  for (const auto& source : sources_)
+  for (Entry& entry : entries_)
   {
-    source->start();
+    entry.newestSec = devices::systemTimeSec();
+    entry.source->start();
   }
 }
 
 void LiveSources::stop()
 {
-  for (const auto& source : sources_)
+  for (const Entry& entry : entries_)
   {
-    source->stop();
+    entry.source->stop();
   }
 }
 
 std::optional<devices::DeviceSample> LiveSources::pop(double timeoutSec)
 {
-  const double each = sources_.size() > 1 ? 0.002 : timeoutSec;
+  const double each = entries_.size() > 1 ? 0.002 : timeoutSec;
   const double endSec = devices::systemTimeSec() + timeoutSec;
   do
   {
-    for (std::size_t i = 0; i < sources_.size(); ++i)
+    for (std::size_t i = 0; i < entries_.size(); ++i)
     {
-      next_ = (next_ + 1) % sources_.size();
-      std::optional<devices::DeviceSample> sample = sources_[next_]->pop(each);
+      next_ = (next_ + 1) % entries_.size();
+      Entry& entry = entries_[next_];
+      std::optional<devices::DeviceSample> sample = entry.source->pop(each);
       if (!sample)
       {
         continue;
       }
-      if (sources_.size() > 1)
+      entry.hasSample = true;
+      entry.newestSec = devices::systemTimeSec();
+      if (entries_.size() > 1)
       {
-        sample->timeSec = offsets_[next_].toLocalSec(sample->timeSec, sample->receivedSec);
+        sample->timeSec = entry.offset.toLocalSec(sample->timeSec, sample->receivedSec);
       }
       firstSec_ = hasSample_ ? firstSec_ : sample->timeSec;
       newestSec_ = std::max(newestSec_, sample->timeSec);
@@ -129,19 +147,51 @@ void LiveSources::warnOfOtherImages(const devices::FramePairing& pairs, const Co
 
 bool LiveSources::isAlive() const
 {
-  const bool isLate = !hasSample_ && devices::systemTimeSec() > startSec_ + waitSec_;
-  return !isLate &&
-    std::any_of(sources_.begin(), sources_.end(),
-      [](const auto& source) { return source->status().state != devices::SourceState::Finished || source->buffer().size() > 0; });
+  const bool isAnyOpen = std::any_of(entries_.begin(), entries_.end(),
+    [](const Entry& entry)
+    { return entry.source->status().state != devices::SourceState::Finished || entry.source->buffer().size() > 0; });
+  return isAnyOpen && missing().empty();
+}
+
+std::string LiveSources::problemOf(const Entry& entry)
+{
+  const devices::SourceStatus status = entry.source->status();
+  const std::string reason = status.lastProblem.empty() ? "" : ": " + status.lastProblem;
+  return entry.source->name() +
+    (entry.hasSample                 ? " gives nothing any more"
+        : status.connectionCount > 0 ? " is there and gives nothing"
+                                     : " was not there") +
+    reason;
+}
+
+std::string LiveSources::missing() const
+{
+  for (const Entry& entry : entries_)
+  {
+    const bool isFinished = entry.source->status().state == devices::SourceState::Finished;
+    const bool isSilent = entry.isLive && devices::systemTimeSec() > entry.newestSec + waitSec_;
+    const bool isEmpty = isFinished && !entry.hasSample && entry.source->buffer().size() == 0;
+    if (isEmpty || (isSilent && !isFinished))
+    {
+      return problemOf(entry);
+    }
+  }
+  return {};
+}
+
+std::string LiveSources::missingAtEnd() const
+{
+  const auto entry = std::find_if(entries_.begin(), entries_.end(), [](const Entry& each) { return !each.hasSample; });
+  return !missing().empty() ? missing() : entry != entries_.end() ? problemOf(*entry) : "";
 }
 
 std::string LiveSources::message() const
 {
   std::string text;
-  for (const auto& source : sources_)
+  for (const Entry& entry : entries_)
   {
-    const devices::SourceStatus status = source->status();
-    text += (text.empty() ? "" : "; ") + (status.connectionCount == 0 ? source->name() + " was not there" : status.message);
+    const devices::SourceStatus status = entry.source->status();
+    text += (text.empty() ? "" : "; ") + (entry.hasSample && missing().empty() ? status.message : problemOf(entry));
   }
   return text;
 }
@@ -149,9 +199,9 @@ std::string LiveSources::message() const
 nlohmann::json LiveSources::statusJson() const
 {
   nlohmann::json list = nlohmann::json::array();
-  for (const auto& source : sources_)
+  for (const Entry& entry : entries_)
   {
-    const devices::SourceStatus status = source->status();
+    const devices::SourceStatus status = entry.source->status();
     nlohmann::json streams = nlohmann::json::array();
     for (const devices::StreamInfo& stream : status.streams)
     {
@@ -159,8 +209,9 @@ nlohmann::json LiveSources::statusJson() const
       const std::string name = nlohmann::json(stream.name).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
       streams.push_back({ { "name", nlohmann::json::parse(name) }, { "type", stream.type }, { "count", stream.count } });
     }
-    list.push_back({ { "name", source->name() }, { "state", toString(status.state) }, { "connections", status.connectionCount },
-      { "refused", status.refusedCount }, { "dropped", status.droppedCount }, { "streams", streams } });
+    list.push_back({ { "name", entry.source->name() }, { "state", toString(status.state) },
+      { "connections", status.connectionCount }, { "refused", status.refusedCount }, { "dropped", status.droppedCount },
+      { "lastProblem", status.lastProblem }, { "streams", streams } });
   }
   return list;
 }

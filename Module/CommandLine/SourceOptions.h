@@ -9,7 +9,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -41,8 +40,14 @@ public:
   /// Time of the newest sample since the first one.
   double streamSec() const { return newestSec_ - firstSec_; }
 
-  /// False when every source has come to its end, or none has come up within the time that is given to them.
+  /// False when every source has come to its end, or one of them is missing.
   bool isAlive() const;
+
+  /// Why a source that was asked for is missing: it cannot be read, or nothing came from it for the time that is given (--wait). Empty if
+  /// none is.
+  std::string missing() const;
+  /// The same at the end of the work, when a source that has given nothing yet is missing, too.
+  std::string missingAtEnd() const;
 
   /// What the sources say of themselves.
   std::string message() const;
@@ -52,11 +57,22 @@ private:
   std::vector<std::string> servers_;
   std::string video_, replay_;
   double speed_ = 1, waitSec_ = 10;
-  std::vector<std::unique_ptr<devices::Source>> sources_;
-  std::map<std::size_t, devices::ClockOffset> offsets_;
+  struct Entry
+  {
+    std::unique_ptr<devices::Source> source;
+    bool isLive = true;    ///< as opposed to a file, which may have pauses
+    double newestSec = 0;  ///< by this computer's clock; of its start before the first sample
+    bool hasSample = false;
+    devices::ClockOffset offset;
+  };
+
+  void add(std::unique_ptr<devices::Source> source, bool isLive);
+  static std::string problemOf(const Entry& entry);
+
+  std::vector<Entry> entries_;
   std::set<std::string> saidImages_;
   std::size_t next_ = 0;
-  double startSec_ = 0, firstSec_ = 0, newestSec_ = 0;
+  double firstSec_ = 0, newestSec_ = 0;
   bool hasSample_ = false;
 };
 

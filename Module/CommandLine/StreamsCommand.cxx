@@ -90,6 +90,11 @@ int runStreams(StreamsArguments& arguments)
       ++counts[sample->name];
     }
   }
+  const std::string missing = arguments.sources.missingAtEnd();
+  if (!newest.empty() && !missing.empty())
+  {
+    arguments.output.warn({ missing });
+  }
   arguments.sources.stop();
   nlohmann::json result = { { "schema", "handeye-streams/1" }, { "status", newest.empty() ? "nothing_came" : "ok" },
     { "message", newest.empty() ? "nothing came: " + arguments.sources.message() : std::to_string(newest.size()) + " streams" },
@@ -111,7 +116,8 @@ int runStreams(StreamsArguments& arguments)
 void addStreamsCommand(CLI::App& app, int& exitCode)
 {
   auto arguments = std::make_shared<StreamsArguments>();
-  CLI::App* command = app.add_subcommand("streams", "List what a server, camera or recording streams; --json with the newest values");
+  CLI::App* command =
+    app.add_subcommand("streams", "List what a server, camera or recording streams; --json with the newest values");
   arguments->sources.addTo(*command);
   command->add_option("--seconds", arguments->seconds, "How long to look")->capture_default_str()->type_name("SEC");
   arguments->output.addTo(*command);

@@ -58,11 +58,46 @@ TEST_F(LatencyCommands, LatencyOfARecording_ReachesTheCalibrationAndIsNotApplied
   const CommandResult validate = run({ "validate", file("shifted"), "--calibration", file("calibration.json"), "--json" });
   EXPECT_EQ(validate.exitCode, 0) << validate.err;
   EXPECT_NE(validate.err.find("not applied again"), std::string::npos) << validate.err;
-  // Another one, for this recording: the poses between its frames, which are too far apart for that.
+  // Another one, for this recording: the poses between its frames, which are too far apart for that. One sentence, not one a frame.
   const CommandResult other =
     run({ "validate", file("shifted"), "--calibration", file("calibration.json"), "--latency", "-60", "--json" });
-  EXPECT_EQ(other.exitCode, 1) << other.err;
+  EXPECT_EQ(other.exitCode, 2) << other.err;
   EXPECT_NE(other.err.find("--latency -60.0 is taken instead of the calibration's -40.0 ms"), std::string::npos) << other.err;
-  EXPECT_NE(other.err.find("-20 ms are added"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("s apart"), std::string::npos) << other.err;
   EXPECT_NE(run({ "overlay", "--help" }).out.find("--latency"), std::string::npos);
+}
+
+/// Who names two sources wants both.
+TEST_F(LatencyCommands, SourceThatIsMissing_IsNamedAndWhatCameIsKept)
+{
+  const Path demo = Path(HANDEYE_RESOURCES_DIR) / "Demo";
+  const CommandResult both = run({ "record", "--replay", (demo / "pivot.igs.mha").string(), "--video", "97", "--speed", "0",
+    "--wait", "2", "--poses", file("poses.igs.mha"), "--json" });
+  EXPECT_EQ(both.exitCode, 1) << both.err;
+  EXPECT_EQ(both.json()["status"], "source_missing");
+  EXPECT_NE(both.err.find("camera 97 was not there"), std::string::npos) << both.err;
+  EXPECT_NE(both.err.find("plugged in"), std::string::npos) << both.err;
+  EXPECT_NE(both.err.find("poses.igs.mha"), std::string::npos) << "what came is kept: " << both.err;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "poses.igs.mha"));
+}
+
+TEST_F(LatencyCommands, FilesThatCannotBeRead_AreSaidAtOnce)
+{
+  std::ofstream(folder_ / "text.avi") << "not a video";
+  const CommandResult video = run({ "record", "--video", file("text.avi"), "-o", file("out.igs.mha") });
+  EXPECT_EQ(video.exitCode, 2) << video.err;
+  EXPECT_NE(video.err.find("text.avi"), std::string::npos) << video.err;
+  const CommandResult replay = run({ "streams", "--replay", file("nowhere.igs.mha") });
+  EXPECT_EQ(replay.exitCode, 2) << replay.err;
+  EXPECT_NE(replay.err.find("nowhere.igs.mha"), std::string::npos) << replay.err;
+}
+
+TEST_F(LatencyCommands, Record_SaysWhatItWroteAndWhere)
+{
+  const Path demo = Path(HANDEYE_RESOURCES_DIR) / "Demo";
+  const CommandResult recorded =
+    run({ "record", "--replay", (demo / "validation").string(), "--speed", "0", "-o", file("again.igs.mha") });
+  EXPECT_EQ(recorded.exitCode, 0) << recorded.err;
+  EXPECT_NE(recorded.out.find("each with the poses of its moment, written to " + file("again.igs.mha")), std::string::npos)
+    << recorded.out;
 }

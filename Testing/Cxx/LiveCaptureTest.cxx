@@ -136,6 +136,29 @@ TEST(LiveCapture, SessionThatIsContinued_KnowsItsPlaces)
   }
 }
 
+TEST(LiveCapture, SampleThatWasSetAside_LeavesItsPlaceToAnother)
+{
+  const TemporaryFolder folder;
+  const SimulatedRoom room(fivePlaces());
+  const std::vector<PairedFrame> frames = framesOf(room, 14, 0);
+  io::Session session = io::Session::create(folder.path() / "s");
+  LiveCapture capture(room.options().camera, room.options().tip_Stylus, session);
+  const auto takeAll = [&]
+  {
+    int accepted = 0;
+    for (const PairedFrame& frame : frames)
+    {
+      accepted += capture.add(frame).status == Status::Accepted ? 1 : 0;
+    }
+    return accepted;
+  };
+  EXPECT_EQ(takeAll(), 5);
+  EXPECT_EQ(takeAll(), 0);
+  session.setExcluded(session.samples().begin()->first, true);
+  EXPECT_EQ(takeAll(), 1);
+  EXPECT_EQ(session.samples().size(), 6U);
+}
+
 TEST(LiveCapture, HiddenTool_IsSaidByName)
 {
   const TemporaryFolder folder;

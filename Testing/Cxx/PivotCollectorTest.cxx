@@ -239,6 +239,24 @@ TEST(PivotCollector, TimeInOnePlace_DoesNotPushTheOthersOut)
   EXPECT_TRUE(pointNear(collector.calibrate().tip_Stylus, stylus.tip_Stylus, 0.1));
 }
 
+/// Slower than anything that a person would notice, and long after the collection is full: the poses that stay are in the order of time,
+/// so that the judgement sees it.
+TEST(PivotCollector, TipThatCreeps_IsNoticedHoweverFullTheCollectionIs)
+{
+  Random random(8);
+  PivotSimulation stylus;
+  PivotCollector collector;
+  const int count = 6000;  // a minute at 100 poses a second
+  for (int i = 0; i < count; ++i)
+  {
+    collector.add(stylus.pose(circling(i, 35 * Degree), random));
+    stylus.pivot_Tracker += Eigen::Vector3d(3.0 / count, 0, 0);
+  }
+  const PivotCalibrationResult result = collector.calibrate();
+  EXPECT_TRUE(collector.hasTipMoved() || result.status == PivotCalibrationResult::Status::TipMoved || !collector.isEnough())
+    << result.message << ", " << result.rmsMm << " mm";
+}
+
 TEST(PivotCollector, AMillionPoses_KeepMemoryFlat)
 {
   Random random(7);

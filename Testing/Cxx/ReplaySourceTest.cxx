@@ -5,6 +5,10 @@
 #include "IoTestSupport.h"
 #include "SequenceMetafileWriter.h"
 
+#include <opencv2/imgcodecs.hpp>
+
+#include <fstream>
+
 namespace
 {
 
@@ -116,11 +120,70 @@ TEST(ReplaySource, RealTime_TakesAsLongAsItTook)
   EXPECT_GE(systemTimeSec() - startSec, 0.15);  // 0.08 s at half the speed; never earlier, later on a loaded machine
 }
 
-TEST(ReplaySource, MissingRecording_IsShown)
+TEST(ReplaySource, MissingRecording_IsTheEnd)
 {
   ReplaySource source(optionsFor("/nowhere/at.igs.mha"));
   source.start();
-  EXPECT_TRUE(waitUntil([&] { return source.status().message.find("/nowhere/at.igs.mha") != std::string::npos; }));
+  EXPECT_TRUE(waitUntil([&] { return source.status().state == SourceState::Finished; }));
+  EXPECT_NE(source.status().lastProblem.find("/nowhere/at.igs.mha"), std::string::npos);
+}
+
+/// It is not begun again and again, which would fill a disk that records it.
+TEST(ReplaySource, DamagedFrame_IsLeftOutAndTheRestIsPlayedOnce)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "frames");
+  handeye::io::SequenceMetafileWriter tracking(folder.path() / "tracking.igs.mha");
+  for (int i = 0; i < 3; ++i)
+  {
+    handeye::io::SequenceFrame frame;
+    frame.timestampSec = 7 + 0.02 * i;
+    tracking.append(frame);
+    const std::string name = (folder.path() / "frames" / ("000" + std::to_string(i) + ".png")).string();
+    cv::imwrite(name, cv::Mat(4, 6, CV_8UC3, cv::Scalar::all(10 * i)));
+  }
+  tracking.close();
+  std::ofstream(folder.path() / "frames/0001.png") << "no picture";
+  ReplaySource source(optionsFor(folder.path()));
+  source.start();
+  std::vector<int> seen;
+  while (const std::optional<DeviceSample> sample = source.pop(5))
+  {
+    seen.push_back(sample->frame()->image.at<cv::Vec3b>(0, 0)[0]);
+  }
+  EXPECT_EQ(seen, (std::vector<int>{ 0, 20 }));
+  EXPECT_EQ(source.status().state, SourceState::Finished);
+  EXPECT_EQ(source.status().refusedCount, 1U);
+  EXPECT_NE(source.status().lastProblem.find("frame 1 is left out"), std::string::npos) << source.status().lastProblem;
+}
+
+TEST(ReplaySource, StartedAgain_PlaysFromTheBeginning)
+{
+  const TemporaryFolder folder;
+  ReplayOptions options = optionsFor(recordingIn(folder));
+  ReplaySource source(options);
+  for (int round = 0; round < 2; ++round)
+  {
+    source.start();
+    ASSERT_TRUE(waitUntil([&] { return source.status().state == SourceState::Finished; }));
+    EXPECT_EQ(source.buffer().size(), 10U) << "nothing of the round before";
+  }
+}
+
+TEST(ReplaySource, StepwiseStoppedAndStartedAgain_NeedsOneStepForAFrame)
+{
+  const TemporaryFolder folder;
+  ReplayOptions options = optionsFor(recordingIn(folder));
+  options.isStepwise = true;
+  ReplaySource source(options);
+  for (int round = 0; round < 3; ++round)
+  {
+    source.start();
+    EXPECT_FALSE(source.pop(0.05));
+    source.step();
+    EXPECT_TRUE(source.pop(20)) << round;
+    source.stop();
+  }
 }
 
 }  // namespace

@@ -240,8 +240,30 @@ TEST(StillnessDetector, TimeThatGoesBack_IsLeftOut)
 {
   Stream stream;
   stream.rest(A, 0.5);
-  EXPECT_FALSE(stream.detector.add(0, makeRigid({ 0, 0, 0 }, C)));
+  EXPECT_FALSE(stream.detector.add(stream.timeSec - 0.2, makeRigid({ 0, 0, 0 }, C)));
   stream.rest(A, 0.6);
+  EXPECT_TRUE(stream.detector.current());
+}
+
+TEST(StillnessDetector, ClockThatWasSet_EndsTheRestAndTheNextIsFound)
+{
+  Stream stream;
+  stream.rest(A, 2);
+  ASSERT_TRUE(stream.detector.current());
+  stream.timeSec -= 3600;
+  stream.rest(B, 2);
+  stream.finish();
+  ASSERT_EQ(stream.rests.size(), 2U);
+  EXPECT_TRUE(pointNear(stream.rests[0].tip_World, A, 0.2));
+  EXPECT_TRUE(pointNear(stream.rests[1].tip_World, B, 0.2));
+}
+
+TEST(StillnessDetector, OneSampleFromTheFuture_DoesNotSilenceTheRest)
+{
+  Stream stream;
+  stream.rest(A, 0.5);
+  (void)stream.detector.addInvalid(stream.timeSec + 1e6);
+  stream.rest(A, 2);
   EXPECT_TRUE(stream.detector.current());
 }
 

@@ -62,6 +62,11 @@ TEST(TimedPose, SlowRecordings_AreInterpolatedAndPlacementsAreNot)
     const io::Recording recording = io::Recording::open(folder.path() / "slow.igs.mha");
     const TransformSample pose = poseOfFrame(recording, 4, "MarkerToTracker", -0.04);
     ASSERT_EQ(pose.isUsable(), spacingSec < 1) << spacingSec << ": " << pose.reason;
+    if (spacingSec > 1)
+    {
+      io::test::expectFileError([&] { (void)latencyNotes(recording, -0.04); }, { "slow.igs.mha", "3.0 s apart", "capture" });
+      EXPECT_TRUE(latencyNotes(recording, 0).empty()) << "without a latency there is nothing wrong with it";
+    }
     EXPECT_NEAR(pose.transform.translation().x(), pose.isUsable() ? 400 * spacingSec - 4 : 0, 1e-4) << spacingSec;
   }
 }

@@ -112,6 +112,32 @@ TEST(VideoSource, File_HasItsOwnTimes)
   }
 }
 
+TEST(VideoSource, FileThatIsNoVideo_IsTheEnd)
+{
+  VideoSourceOptions options;
+  options.device = "/nowhere/film.avi";
+  VideoSource source(options);
+  source.start();
+  EXPECT_TRUE(waitUntil([&] { return source.status().state == SourceState::Finished; }));
+  EXPECT_NE(source.status().lastProblem.find("/nowhere/film.avi"), std::string::npos);
+  handeye::io::test::expectFileError([&] { requireReadable(options); }, { "/nowhere/film.avi", "video" });
+  options.device = "97";
+  EXPECT_NO_THROW(requireReadable(options)) << "a camera may be plugged in later";
+}
+
+/// Nobody listens there: stop() must not wait for a time-out of half a minute.
+TEST(VideoSource, UrlThatDoesNotAnswer_IsTriedAgainAndCanBeStopped)
+{
+  VideoSourceOptions options;
+  options.device = "http://127.0.0.1:9/video.mjpg";
+  VideoSource source(options);
+  source.start();
+  EXPECT_TRUE(waitUntil([&] { return source.status().lastProblem.find("127.0.0.1:9") != std::string::npos; }));
+  EXPECT_EQ(source.status().state, SourceState::Connecting);
+  source.stop();
+  EXPECT_EQ(source.status().state, SourceState::Stopped);
+}
+
 TEST(VideoSource, NoCamera_SaysWhatToLookFor)
 {
   VideoSourceOptions options;

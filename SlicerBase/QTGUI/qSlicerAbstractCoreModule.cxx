@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qSlicerAbstractCoreModule.h"
+
+#include "qSlicerAbstractModuleRepresentation.h"
+#include "vtkMRMLAbstractLogic.h"
+
+#include <QWidget>
+
+qSlicerAbstractCoreModule::qSlicerAbstractCoreModule(QObject* parent)
+  : QObject(parent)
+{
+}
+
+qSlicerAbstractCoreModule::~qSlicerAbstractCoreModule()
+{
+  qSlicerAbstractModuleRepresentation* const representation = this->Representation;
+  if (!representation)
+  {
+    return;
+  }
+  representation->setModule(nullptr);
+  // A panel in a window is the window's.
+  auto* const widget = dynamic_cast<QWidget*>(representation);
+  if (!widget || !widget->parent())
+  {
+    delete representation;
+  }
+}
+
+void qSlicerAbstractCoreModule::initialize(vtkSlicerApplicationLogic* appLogic)
+{
+  if (this->Initialized)
+  {
+    return;
+  }
+  this->AppLogic = appLogic;
+  this->Logic.TakeReference(this->createLogic());
+  this->setup();
+  this->Initialized = true;
+}
+
+void qSlicerAbstractCoreModule::setName(const QString& name)
+{
+  this->Name = name;
+}
+
+void qSlicerAbstractCoreModule::setPath(const QString& path)
+{
+  this->Path = path;
+}
+
+QStringList qSlicerAbstractCoreModule::categories() const
+{
+  return { QString() };
+}
+
+int qSlicerAbstractCoreModule::index() const
+{
+  return -1;
+}
+
+bool qSlicerAbstractCoreModule::isHidden() const
+{
+  return false;
+}
+
+QString qSlicerAbstractCoreModule::helpText() const
+{
+  return {};
+}
+
+QString qSlicerAbstractCoreModule::acknowledgementText() const
+{
+  return {};
+}
+
+QStringList qSlicerAbstractCoreModule::contributors() const
+{
+  return {};
+}
+
+QStringList qSlicerAbstractCoreModule::dependencies() const
+{
+  return {};
+}
+
+QStringList qSlicerAbstractCoreModule::associatedNodeTypes() const
+{
+  return {};
+}
+
+qSlicerAbstractModuleRepresentation* qSlicerAbstractCoreModule::widgetRepresentation()
+{
+  if (!this->Representation)
+  {
+    this->Representation = this->createWidgetRepresentation();
+    if (this->Representation)
+    {
+      this->Representation->setModule(this);
+      this->Representation->setup();
+      this->Representation->setMRMLScene(this->Scene);
+    }
+  }
+  return this->Representation;
+}
+
+vtkMRMLAbstractLogic* qSlicerAbstractCoreModule::logic() const
+{
+  return this->Logic;
+}
+
+void qSlicerAbstractCoreModule::setMRMLScene(vtkMRMLScene* scene)
+{
+  this->Scene = scene;
+  if (this->Logic)
+  {
+    this->Logic->SetMRMLScene(scene);
+  }
+  if (this->Representation)
+  {
+    this->Representation->setMRMLScene(scene);
+  }
+}
+
+void qSlicerAbstractCoreModule::representationDeleted(qSlicerAbstractModuleRepresentation* representation)
+{
+  if (this->Representation == representation)
+  {
+    this->Representation = nullptr;
+  }
+}

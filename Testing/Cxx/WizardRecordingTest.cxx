@@ -1,0 +1,290 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CameraFile.h"
+#include "LandmarkFiles.h"
+#include "ResultFiles.h"
+#include "SampleTable.h"
+#include "WidgetTestSupport.h"
+#include "WizardDriver.h"
+#include "WizardPage.h"
+#include "WizardStepBar.h"
+
+#include <QCheckBox>
+#include <QLineEdit>
+#include <QProcess>
+#include <QRadioButton>
+#include <QTableView>
+#include <QTemporaryDir>
+#include <QToolButton>
+#include <QUndoStack>
+
+#include <csignal>
+#include <fstream>
+
+using handeye::HandEyeWorkbench;
+using handeye::WizardStep;
+
+namespace
+{
+
+QString demo(const char* name)
+{
+  return QStringLiteral(HANDEYE_RESOURCES_DIR "/Demo/") + QString::fromLatin1(name);
+}
+
+Eigen::Isometry3d trueMarkerToCamera()
+{
+  std::ifstream file(demo("truth.json").toStdString());
+  const nlohmann::json rows = nlohmann::json::parse(file).at("markerToCamera");
+  Eigen::Isometry3d markerToCamera;
+  for (int i = 0; i < 16; ++i)
+  {
+    markerToCamera.matrix()(i / 4, i % 4) = rows[std::size_t(i / 4)][std::size_t(i % 4)].get<double>();
+  }
+  return markerToCamera;
+}
+
+void expectTruth(const HandEyeWorkbench& workbench)
+{
+  const Eigen::Isometry3d cameraToMarker = trueMarkerToCamera().inverse();
+  const Eigen::Isometry3d error = workbench.calibration()->calibration.markerToCamera * cameraToMarker;
+  const Eigen::AngleAxisd turn(error.linear());
+  Eigen::Matrix<double, 6, 1> motion;
+  motion << turn.angle() * turn.axis(), error.translation();
+  const double mahalanobis = std::sqrt(motion.dot(workbench.calibration()->calibration.covariance.ldlt().solve(motion)));
+  qInfo("off the truth by %.3f deg, %.2f mm, %.1f sigma (6 freedoms)", turn.angle() * 57.2958, error.translation().norm(), mahalanobis);
+  QVERIFY(mahalanobis < 4.5);  // the 99.7 % quantile of chi with 6 degrees of freedom, what 3 sigma are for one
+  QVERIFY(turn.angle() < 0.5 / 57.2958);
+  QVERIFY(error.translation().norm() < 3);
+}
+
+/// Camera and stylus from files, so that captures can be taken.
+void loadInputs(HandEyeCalibrationPanel& panel)
+{
+  QVERIFY(panel.openFile(demo("camera.yml")));
+  QTRY_VERIFY(panel.workbench().camera().has_value());
+  panel.goTo(WizardStep::Stylus);
+  QVERIFY(panel.openFile(demo("pivot.igs.mha")));
+  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().stylus().has_value(), 10000);
+  panel.goTo(WizardStep::Capture);
+}
+
+void importCapture(HandEyeCalibrationPanel& panel)
+{
+  QVERIFY(panel.openFile(demo("calibration")));
+  QTRY_VERIFY_WITH_TIMEOUT(!panel.workbench().capture().isBusy() && panel.workbench().capture().samples().size() > 10, 20000);
+  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().calibration() && panel.workbench().calibration()->isUsable(), 10000);
+}
+
+/// Collects samples and dies of SIGKILL in the middle.
+int captureAndDie(const QString& folder)
+{
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  panel.workbench().openSession(folder);
+  loadInputs(panel);
+  QObject::connect(&panel.workbench().capture(), &handeye::CaptureTask::samplesChanged,
+    [&panel]
+    {
+      if (panel.workbench().capture().samples().size() >= 7)
+      {
+        printf("announced %d\n", panel.workbench().capture().samples().size());
+        fflush(stdout);
+        raise(SIGKILL);
+      }
+    });
+  panel.openFile(demo("calibration"));
+  QTest::qWait(20000);
+  return 1;
+}
+
+}  // namespace
+
+/// The wizard with recordings instead of live devices; what is done to samples; what comes back.
+class WizardRecordingTest : public QObject
+{
+  Q_OBJECT
+
+private slots:
+  void recording_FromFirstPageToLast();
+  void samples_ExcludeDeleteUndoRedo();
+  void session_ReopenedBringsEverythingBack();
+  void session_KilledKeepsWhatWasAnnounced();
+};
+
+void WizardRecordingTest::recording_FromFirstPageToLast()
+{
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  testing_widgets::show(panel, QSize(1280, 800));
+  HandEyeWorkbench& workbench = panel.workbench();
+  WizardDriver driver(panel);
+
+  driver.check(driver.onPage<QRadioButton>("recordingButton"));
+  driver.onPage<QLineEdit>("recordingEdit")->setText(demo("calibration"));
+  driver.click(driver.onPage("connectButton"));
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), 10000);
+  driver.click(driver.find("nextButton"));
+
+  QCOMPARE(panel.currentStep(), WizardStep::Camera);
+  QVERIFY(!driver.canGoNext());
+  QVERIFY(panel.openFile(demo("camera.yml")));
+  QTRY_VERIFY(driver.canGoNext());
+  driver.click(driver.find("nextButton"));
+
+  QVERIFY(!driver.canGoNext());
+  QVERIFY(panel.openFile(demo("pivot.igs.mha")));
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), 10000);
+  driver.click(driver.find("nextButton"));
+
+  QCOMPARE(panel.currentStep(), WizardStep::Ball);
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), 10000);
+  driver.click(driver.find("nextButton"));
+
+  QCOMPARE(panel.currentStep(), WizardStep::Capture);
+  driver.check(driver.onPage<QCheckBox>("handsFreeBox"));
+  importCapture(panel);
+  QTRY_VERIFY(driver.canGoNext());
+  expectTruth(workbench);
+  driver.click(driver.find("nextButton"));
+
+  QCOMPARE(panel.currentStep(), WizardStep::Validation);
+  driver.check(driver.onPage<QCheckBox>("handsFreeBox"));
+  QVERIFY(!driver.canGoNext());
+  QVERIFY(panel.openFile(demo("validation")));
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), 20000);
+  QTRY_VERIFY_WITH_TIMEOUT(!workbench.validationCapture().isBusy(), 20000);
+  QVERIFY2(workbench.validation()->projectionErrorPx.mean < 3, qPrintable(driver.message()));
+  driver.click(driver.find("nextButton"));
+
+  QCOMPARE(panel.currentStep(), WizardStep::Overlay);
+  QTRY_VERIFY(workbench.model() != nullptr);
+  QVERIFY(!driver.canGoNext());
+  QVERIFY2(driver.reason().contains(QStringLiteral("Register the phantom")), qPrintable(driver.reason()));
+  const QTemporaryDir folder;
+  const auto landmarks = handeye::readLandmarkLists(
+    demo("phantom_model_points.txt").toStdString(), demo("phantom_touched_points.txt").toStdString());
+  const QString phantom = folder.filePath(QStringLiteral("phantom.json"));
+  handeye::writeJson(
+    phantom.toStdString(), handeye::phantomJson(handeye::registerLandmarks(landmarks.points_Model, landmarks.points_Phantom)));
+  QVERIFY(panel.openFile(phantom));
+  QTRY_VERIFY(driver.canGoNext());
+  driver.click(driver.find("nextButton"));
+  QCOMPARE(panel.currentStep(), WizardStep::Finish);
+
+  // Back loses nothing
+  for (int i = 0; i < 7; ++i)
+  {
+    driver.click(driver.find("backButton"));
+  }
+  QCOMPARE(panel.currentStep(), WizardStep::Devices);
+  QVERIFY(workbench.calibration()->isUsable() && workbench.validation() && workbench.modelToPhantom());
+}
+
+void WizardRecordingTest::samples_ExcludeDeleteUndoRedo()
+{
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  testing_widgets::show(panel, QSize(1280, 800));
+  HandEyeWorkbench& workbench = panel.workbench();
+  loadInputs(panel);
+  importCapture(panel);
+  const int all = workbench.calibration()->calibration.usedCount;
+  auto* table = panel.findChild<handeye::SampleTable*>();
+  const int first = table->rows().first().id;
+  const auto taking = [&] { return int(workbench.calibration()->frames.size()); };
+  const int count = taking();
+
+  table->selectSample(first);
+  table->excludeSelected(true);
+  QTRY_COMPARE(taking(), count - 1);
+  QVERIFY(workbench.calibration()->calibration.usedCount <= all);
+  QVERIFY(workbench.capture().samples()[first].isExcluded);
+  table->undo();
+  QTRY_COMPARE(taking(), count);
+  table->redo();
+  QTRY_COMPARE(taking(), count - 1);
+  table->undo();
+  QTRY_COMPARE(taking(), count);
+
+  table->selectSample(first);
+  table->deleteSelected();
+  QTRY_COMPARE(taking(), count - 1);
+  QCOMPARE(table->rows().size(), count - 1);
+  table->undo();
+  QTRY_COMPARE(taking(), count);
+  QCOMPARE(table->rows().size(), count);
+}
+
+void WizardRecordingTest::session_ReopenedBringsEverythingBack()
+{
+  const QTemporaryDir parent;
+  const QString folder = parent.filePath(QStringLiteral("session"));
+  Eigen::Isometry3d markerToCamera;
+  int samples = 0, excluded = -1, deleted = -1, validated = 0;
+  {
+    HandEyeCalibrationPanel panel(nullptr, nullptr);
+    HandEyeWorkbench& workbench = panel.workbench();
+    workbench.openSession(folder);
+    QSignalSpy opened(&workbench, &HandEyeWorkbench::sessionOpened);
+    QVERIFY(opened.wait(5000));
+    loadInputs(panel);
+    importCapture(panel);
+    workbench.setBallRadius(15.0);
+    excluded = workbench.capture().samples().keys()[2];
+    deleted = workbench.capture().samples().keys()[4];
+    samples = workbench.capture().samples().size();
+    workbench.capture().setExcluded({ excluded }, true);
+    workbench.capture().setDeleted({ deleted }, true);
+    QTRY_COMPARE(int(workbench.calibration()->frames.size()), samples - 2);
+    panel.goTo(WizardStep::Validation);
+    QVERIFY(panel.openFile(demo("validation")));
+    QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && !workbench.validationCapture().isBusy(), 20000);
+    QTRY_COMPARE(workbench.validation()->projectionErrorPx.count, workbench.validationCapture().samples().size());
+    validated = workbench.validation()->projectionErrorPx.count;
+    markerToCamera = workbench.calibration()->calibration.markerToCamera;
+  }
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  HandEyeWorkbench& workbench = panel.workbench();
+  QVERIFY(panel.openFile(folder));
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count == validated, 20000);
+  QCOMPARE(workbench.capture().samples().size(), samples);
+  QVERIFY(workbench.capture().samples()[excluded].isExcluded);
+  QVERIFY(workbench.capture().samples()[deleted].isDeleted);
+  QVERIFY(workbench.camera()->origin.endsWith(QStringLiteral("camera.yml")));
+  QVERIFY(workbench.calibration()->calibration.markerToCamera.isApprox(markerToCamera, 1e-9));
+  for (const WizardStep step : { WizardStep::Camera, WizardStep::Stylus, WizardStep::Ball, WizardStep::Capture, WizardStep::Validation })
+  {
+    QVERIFY2(workbench.problemOf(step).isEmpty(), qPrintable(workbench.problemOf(step)));
+  }
+}
+
+void WizardRecordingTest::session_KilledKeepsWhatWasAnnounced()
+{
+  const QTemporaryDir parent;
+  const QString folder = parent.filePath(QStringLiteral("session"));
+  QProcess child;
+  child.start(QCoreApplication::applicationFilePath(), { QStringLiteral("--capture-and-die"), folder });
+  QTRY_VERIFY_WITH_TIMEOUT(child.state() == QProcess::NotRunning, 40000);
+  QCOMPARE(child.exitStatus(), QProcess::CrashExit);
+  const QByteArray output = child.readAllStandardOutput();
+  QVERIFY2(output.contains("announced"), output);
+  const int announced = output.mid(output.lastIndexOf("announced") + 10).trimmed().toInt();
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  QVERIFY(panel.openFile(folder));
+  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().capture().samples().size() >= announced, 20000);
+  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().calibration() && panel.workbench().calibration()->isUsable(), 10000);
+}
+
+int main(int argc, char** argv)
+{
+  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  QApplication application(argc, argv);
+  QApplication::setStyle(QStringLiteral("Fusion"));
+  const QStringList arguments = QApplication::arguments();
+  if (arguments.size() == 3 && arguments[1] == QStringLiteral("--capture-and-die"))
+  {
+    return captureAndDie(arguments[2]);
+  }
+  WizardRecordingTest test;
+  return QTest::qExec(&test, argc, argv);
+}
+
+#include "WizardRecordingTest.moc"

@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FaultyServer.h"
+#include "SampleTable.h"
+#include "SequenceMetafileWriter.h"
+#include "VideoView.h"
+#include "WidgetTestSupport.h"
+#include "WizardDriver.h"
+#include "WizardPage.h"
+#include "WizardStepBar.h"
+
+#include <QCheckBox>
+#include <QLineEdit>
+#include <QRadioButton>
+#include <QTemporaryDir>
+#include <QToolButton>
+
+#include <fstream>
+#include <memory>
+
+using handeye::HandEyeWorkbench;
+using handeye::WizardStep;
+
+namespace
+{
+
+QString demo(const char* name)
+{
+  return QStringLiteral(HANDEYE_RESOURCES_DIR "/Demo/") + QString::fromLatin1(name);
+}
+
+/// A stylus that turns about one axis only: its tip is free along it.
+void writeOneAxisPivot(const QString& path)
+{
+  handeye::io::SequenceMetafileWriterOptions options;
+  options.transformsOnly = true;
+  handeye::io::SequenceMetafileWriter writer(path.toStdString(), options);
+  for (int i = 0; i < 200; ++i)
+  {
+    Eigen::Isometry3d stylusToTracker = Eigen::Isometry3d::Identity();
+    stylusToTracker.linear() = Eigen::AngleAxisd(0.6 * std::sin(0.05 * i), Eigen::Vector3d::UnitX()).toRotationMatrix();
+    const Eigen::Vector3d tip_Tracker = stylusToTracker.linear() * Eigen::Vector3d(0, 0, 150);
+    stylusToTracker.translation() = Eigen::Vector3d(10, 20, -900) - tip_Tracker;
+    handeye::io::SequenceFrame frame;
+    frame.timestampSec = i / 30.0;
+    frame.transforms["StylusToTracker"] = { stylusToTracker.matrix(), "OK" };
+    writer.append(frame);
+  }
+  writer.close();
+}
+
+}  // namespace
+
+/// Every refusal stands on the screen in words, and Next stays closed.
+class WizardRefusalsTest : public QObject
+{
+  Q_OBJECT
+
+private slots:
+  void init();
+  void cleanup();
+
+  void nothingConnected_SaysWhatToDo();
+  void address_ThatIsNone();
+  void server_ThatIsNotThere();
+  void recording_ThatIsNotThere();
+  void wrongFile_AsCamera();
+  void wrongFile_AsStylus();
+  void wrongFile_AsMesh();
+  void pivot_AboutOneAxis();
+  void pivot_FinishedAtOnce();
+  void ball_ThatIsNotThere();
+  void click_OnSomethingGrey();
+  void tracker_ThatIsLost();
+  void capture_WithTooFewPlaces();
+  void pages_SayWhatIsMissing();
+
+private:
+  HandEyeWorkbench& workbench() { return panel_->workbench(); }
+  void connectTo(FaultyServer& server);
+  void loadInputs();
+
+  std::unique_ptr<HandEyeCalibrationPanel> panel_;
+  std::unique_ptr<WizardDriver> driver_;
+  QTemporaryDir folder_;
+};
+
+void WizardRefusalsTest::init()
+{
+  panel_ = std::make_unique<HandEyeCalibrationPanel>(nullptr, nullptr);
+  driver_ = std::make_unique<WizardDriver>(*panel_);
+  testing_widgets::show(*panel_, QSize(1280, 800));
+}
+
+void WizardRefusalsTest::cleanup()
+{
+  driver_.reset();
+  panel_.reset();
+}
+
+void WizardRefusalsTest::connectTo(FaultyServer& server)
+{
+  panel_->goTo(WizardStep::Devices);
+  driver_->check(driver_->onPage<QRadioButton>("serversButton"));
+  driver_->onPage<QLineEdit>("serversEdit")->setText(QStringLiteral("127.0.0.1:%1").arg(server.port()));
+  driver_->click(driver_->onPage("connectButton"));
+  QTRY_VERIFY_WITH_TIMEOUT(driver_->canGoNext(), 10000);
+}
+
+void WizardRefusalsTest::loadInputs()
+{
+  QVERIFY(panel_->openFile(demo("camera.yml")));
+  QTRY_VERIFY(workbench().camera().has_value());
+  panel_->goTo(WizardStep::Stylus);
+  QVERIFY(panel_->openFile(demo("pivot.igs.mha")));
+  QTRY_VERIFY_WITH_TIMEOUT(workbench().stylus().has_value(), 10000);
+}
+
+void WizardRefusalsTest::nothingConnected_SaysWhatToDo()
+{
+  QVERIFY(!driver_->canGoNext());
+  QVERIFY2(driver_->reason().contains(QStringLiteral("press Connect")), qPrintable(driver_->reason()));
+}
+
+void WizardRefusalsTest::address_ThatIsNone()
+{
+  driver_->check(driver_->onPage<QRadioButton>("serversButton"));
+  driver_->onPage<QLineEdit>("serversEdit")->setText(QStringLiteral("127.0.0.1:eighteen"));
+  driver_->click(driver_->onPage("connectButton"));
+  QTRY_VERIFY(driver_->message().contains(QStringLiteral("'127.0.0.1:eighteen' is not HOST")));
+  QVERIFY(!driver_->canGoNext());
+}
+
+void WizardRefusalsTest::server_ThatIsNotThere()
+{
+  driver_->check(driver_->onPage<QRadioButton>("serversButton"));
+  driver_->onPage<QLineEdit>("serversEdit")->setText(QStringLiteral("127.0.0.1:1"));
+  driver_->click(driver_->onPage("connectButton"));
+  QTRY_VERIFY(driver_->reason().contains(QStringLiteral("127.0.0.1:1")));
+  QTRY_VERIFY(driver_->reason().contains(QStringLiteral("refused"), Qt::CaseInsensitive));
+  QVERIFY(!driver_->canGoNext());
+}
+
+void WizardRefusalsTest::recording_ThatIsNotThere()
+{
+  driver_->check(driver_->onPage<QRadioButton>("recordingButton"));
+  driver_->onPage<QLineEdit>("recordingEdit")->setText(QStringLiteral("/nowhere/pivot.igs.mha"));
+  driver_->click(driver_->onPage("connectButton"));
+  QTRY_VERIFY(driver_->message().contains(QStringLiteral("There is no recording '/nowhere/pivot.igs.mha'")));
+}
+
+void WizardRefusalsTest::wrongFile_AsCamera()
+{
+  const QString path = folder_.filePath(QStringLiteral("letter.yml"));
+  std::ofstream(path.toStdString()) << "dear: surgeon\n";
+  QVERIFY(panel_->openFile(path));
+  QCOMPARE(panel_->currentStep(), WizardStep::Camera);
+  QTRY_VERIFY(driver_->message().contains(QStringLiteral("letter.yml")));
+  QVERIFY(!driver_->canGoNext());
+  QVERIFY(!driver_->reason().isEmpty());
+}
+
+void WizardRefusalsTest::wrongFile_AsStylus()
+{
+  const QString path = folder_.filePath(QStringLiteral("stylus.json"));
+  std::ofstream(path.toStdString()) << "{\"status\": \"too_few_poses\"}";
+  panel_->goTo(WizardStep::Stylus);
+  QVERIFY(panel_->openFile(path));
+  QTRY_VERIFY(driver_->message().contains(QStringLiteral("stylus.json")));
+  QVERIFY(!driver_->canGoNext());
+}
+
+void WizardRefusalsTest::wrongFile_AsMesh()
+{
+  const QString path = folder_.filePath(QStringLiteral("bone.stl"));
+  std::ofstream(path.toStdString()) << "not a mesh";
+  QVERIFY(panel_->openFile(path));
+  QCOMPARE(panel_->currentStep(), WizardStep::Overlay);
+  QTRY_VERIFY(driver_->message().contains(QStringLiteral("bone.stl")));
+  QVERIFY(!driver_->canGoNext());
+}
+
+void WizardRefusalsTest::pivot_AboutOneAxis()
+{
+  const QString path = folder_.filePath(QStringLiteral("oneaxis.igs.mha"));
+  writeOneAxisPivot(path);
+  panel_->goTo(WizardStep::Stylus);
+  QVERIFY(panel_->openFile(path));
+  QTRY_VERIFY(driver_->message().contains(QStringLiteral("axis")));
+  QVERIFY(!driver_->canGoNext());
+}
+
+void WizardRefusalsTest::pivot_FinishedAtOnce()
+{
+  FaultyServer server;
+  connectTo(server);
+  panel_->goTo(WizardStep::Stylus);
+  driver_->click(driver_->onPage("startButton"));
+  QVERIFY2(driver_->reason().contains(QStringLiteral("under way")), qPrintable(driver_->reason()));
+  driver_->click(driver_->onPage("finishButton"));
+  QTRY_VERIFY(driver_->message().contains(QStringLiteral("pose")));
+  QVERIFY(!driver_->canGoNext());
+}
+
+void WizardRefusalsTest::ball_ThatIsNotThere()
+{
+  FaultyServer server;
+  connectTo(server);
+  loadInputs();
+  panel_->goTo(WizardStep::Ball);
+  auto* found = driver_->onPage<QLabel>("foundLabel");
+  QTRY_VERIFY_WITH_TIMEOUT(found->text().size() > 5, 5000);
+  QVERIFY2(driver_->reason().contains(QStringLiteral("has not been found")), qPrintable(driver_->reason()));
+  QVERIFY(!driver_->canGoNext());
+  QTRY_VERIFY(!panel_->videoView().banner().isEmpty());
+  panel_->goTo(WizardStep::Capture);
+  QTRY_VERIFY(workbench().live().newest() && workbench().live().newest()->ball);
+  driver_->click(driver_->onPage("takeButton"));
+  QTRY_VERIFY(driver_->message().contains(QStringLiteral("Not taken")));
+}
+
+void WizardRefusalsTest::click_OnSomethingGrey()
+{
+  FaultyServer server;
+  connectTo(server);
+  loadInputs();
+  panel_->goTo(WizardStep::Ball);
+  QTRY_VERIFY(panel_->videoView().hasFrame());
+  QTest::qWait(200);
+  emit panel_->videoView().imageClicked(QPointF(320, 240));
+  QTRY_VERIFY(driver_->message().contains(QStringLiteral("no colour to speak of")));
+  QVERIFY(!workbench().ball().isColorLearnt);
+}
+
+void WizardRefusalsTest::tracker_ThatIsLost()
+{
+  FaultyServer server;
+  connectTo(server);
+  loadInputs();
+  server.setStylusSeen(false);
+  panel_->goTo(WizardStep::Capture);
+  auto* hint = driver_->onPage<QLabel>("hintLabel");
+  QTRY_VERIFY_WITH_TIMEOUT(hint->text().contains(QStringLiteral("StylusToTracker")), 5000);
+  QTRY_COMPARE(workbench().devices().stream(QStringLiteral("StylusToTracker")).light, handeye::StreamList::Light::Stale);
+  driver_->click(driver_->onPage("takeButton"));
+  QTRY_VERIFY(driver_->message().contains(QStringLiteral("StylusToTracker")));
+  server.stop();
+  panel_->goTo(WizardStep::Devices);
+  QTRY_VERIFY_WITH_TIMEOUT(driver_->reason().contains(QStringLiteral("No poses named")), 10000);
+  QVERIFY(!driver_->canGoNext());
+}
+
+void WizardRefusalsTest::capture_WithTooFewPlaces()
+{
+  loadInputs();
+  panel_->goTo(WizardStep::Capture);
+  QVERIFY(panel_->openFile(demo("calibration")));
+  QTRY_VERIFY_WITH_TIMEOUT(!workbench().capture().isBusy() && workbench().capture().samples().size() > 10, 20000);
+  QVector<int> most = QVector<int>::fromList(workbench().capture().samples().keys());
+  most.resize(most.size() - 3);
+  emit panel_->findChild<handeye::SampleTable*>()->excludeRequested(most, true);
+  QTRY_VERIFY2(driver_->reason().contains(QStringLiteral("at least 6")), qPrintable(driver_->reason()));
+  QVERIFY(!driver_->canGoNext());
+  panel_->goTo(WizardStep::Validation);
+  QVERIFY2(driver_->missing().contains(QStringLiteral("page Capture")), qPrintable(driver_->missing()));
+}
+
+void WizardRefusalsTest::pages_SayWhatIsMissing()
+{
+  const std::pair<WizardStep, const char*> pages[] = { { WizardStep::Ball, "page Camera" }, { WizardStep::Capture, "page Camera" },
+    { WizardStep::Validation, "page Camera" }, { WizardStep::Finish, "page Camera" } };
+  for (const auto& [step, words] : pages)
+  {
+    const QByteArray name = "stepButton" + QByteArray::number(int(step) + 1);
+    driver_->click(driver_->find<QToolButton>(name.constData()));
+    QCOMPARE(panel_->currentStep(), step);
+    QVERIFY2(driver_->missing().contains(QString::fromLatin1(words)), qPrintable(driver_->missing()));
+    QVERIFY(!driver_->canGoNext());
+  }
+}
+
+HANDEYE_WIDGET_TEST_MAIN(WizardRefusalsTest)
+
+#include "WizardRefusalsTest.moc"

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CameraFile.h"
+#include "WidgetTestSupport.h"
+#include "WizardDriver.h"
+#include "WizardPage.h"
+#include "WizardStepBar.h"
+#include "vtkSlicerHandEyeCalibrationLogic.h"
+
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+
+using handeye::HandEyeWorkbench;
+using handeye::WizardStep;
+
+namespace
+{
+
+/// The room with short placements: a person holds the ball for longer.
+handeye::simulation::RoomOptions quickRoom(handeye::simulation::RoomOptions room)
+{
+  room.holdSec = 1.0;
+  room.moveSec = 0.5;
+  return room;
+}
+
+}  // namespace
+
+/// The wizard from the first page to the last, clicked through against the simulated room over OpenIGTLink.
+class WizardRunTest : public QObject
+{
+  Q_OBJECT
+
+private slots:
+  void simulatedRun_CalibrationIsTheRoomsTruth();
+};
+
+void WizardRunTest::simulatedRun_CalibrationIsTheRoomsTruth()
+{
+  vtkNew<vtkSlicerHandEyeCalibrationLogic> logic;
+  HandEyeCalibrationPanel panel(logic, nullptr);
+  panel.resize(1280, 800);
+  panel.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&panel));
+  HandEyeWorkbench& workbench = panel.workbench();
+  workbench.devices().setRoomOptions(quickRoom(workbench.devices().roomOptions()));
+  WizardDriver driver(panel);
+  StallMeter stalls;
+  stalls.start();
+  QElapsedTimer clock;
+  clock.start();
+
+  // Devices
+  stalls.setPhase(QStringLiteral("devices"));
+  QVERIFY(!driver.canGoNext());
+  QVERIFY(driver.reason().contains(QStringLiteral("Connect")));
+  driver.click(driver.onPage("connectButton"));
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), 10000);
+  qInfo("devices %.1f s", double(clock.elapsed()) / 1000);
+  driver.click(driver.find("nextButton"));
+  QCOMPARE(panel.currentStep(), WizardStep::Camera);
+
+  // Camera: the room knows its own
+  stalls.setPhase(QStringLiteral("camera"));
+  QTRY_VERIFY(driver.canGoNext());
+  driver.click(driver.find("nextButton"));
+
+  // Stylus
+  stalls.setPhase(QStringLiteral("stylus"));
+  QCOMPARE(panel.currentStep(), WizardStep::Stylus);
+  QVERIFY(!driver.canGoNext());
+  driver.click(driver.onPage("startButton"));
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), 20000);
+  qInfo("stylus %.1f s: %s", double(clock.elapsed()) / 1000, qPrintable(driver.message()));
+  const Eigen::Vector3d tipError = workbench.stylus()->tip_Stylus - workbench.devices().room()->tip_Stylus;
+  QVERIFY(tipError.norm() < 0.5);
+  driver.click(driver.find("nextButton"));
+
+  // Ball
+  stalls.setPhase(QStringLiteral("ball"));
+  QCOMPARE(panel.currentStep(), WizardStep::Ball);
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), 10000);
+  driver.click(driver.find("nextButton"));
+
+  // Capture
+  stalls.setPhase(QStringLiteral("capture"));
+  QCOMPARE(panel.currentStep(), WizardStep::Capture);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.capture().samples().size() >= 10, 40000);
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), 5000);
+  qInfo("capture %.1f s: %d samples: %s", double(clock.elapsed()) / 1000, workbench.capture().samples().size(),
+    qPrintable(driver.message()));
+  driver.click(driver.find("nextButton"));
+
+  // Validation
+  stalls.setPhase(QStringLiteral("validation"));
+  QCOMPARE(panel.currentStep(), WizardStep::Validation);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count >= 4, 20000);
+  qInfo("validation %.1f s: %s", double(clock.elapsed()) / 1000, qPrintable(driver.message()));
+  QVERIFY(driver.canGoNext());
+  driver.click(driver.find("nextButton"));
+  stalls.setPhase(QStringLiteral("overlay"));
+  QCOMPARE(panel.currentStep(), WizardStep::Overlay);
+  QTest::qWait(1000);
+  driver.click(driver.find<QToolButton>("stepButton8"));
+  QCOMPARE(panel.currentStep(), WizardStep::Finish);
+  QTest::qWait(300);
+  stalls.stop();
+
+  // What it saved
+  const handeye::simulation::RoomOptions& room = *workbench.devices().room();
+  const QString file = workbench.documentPath(QStringLiteral("calibration"));
+  const handeye::io::CameraFile saved = handeye::io::readCameraFile(file.toStdString());
+  QVERIFY(saved.markerToCamera.has_value());
+  const Eigen::Isometry3d cameraToMarker = room.markerToCamera.inverse();
+  const Eigen::Isometry3d error = *saved.markerToCamera * cameraToMarker;
+  const Eigen::AngleAxisd turn(error.linear());
+  Eigen::Matrix<double, 6, 1> motion;
+  motion << turn.angle() * turn.axis(), error.translation();
+  const Eigen::Matrix<double, 6, 6> covariance = workbench.calibration()->calibration.covariance;
+  const double mahalanobis = std::sqrt(motion.dot(covariance.ldlt().solve(motion)));
+  qInfo("off the truth by %.3f deg, %.2f mm, %.1f sigma (6 freedoms); %.1f s in all", turn.angle() * 57.2958,
+    error.translation().norm(), mahalanobis, double(clock.elapsed()) / 1000);
+  qInfo("longest stall %lld ms by the clock; %.0f ms by the window's own work (%s), %d over 50 ms", stalls.longestMs(),
+    stalls.longestWorkMs(), qPrintable(stalls.phaseOfLongest()), stalls.countOver50Ms());
+  QVERIFY(mahalanobis < 4.5);  // the 99.7 % quantile of chi with 6 degrees of freedom, what 3 sigma are for one
+  QVERIFY(turn.angle() < 0.4 / 57.2958);
+  QVERIFY(error.translation().norm() < 2.5);
+}
+
+HANDEYE_WIDGET_TEST_MAIN(WizardRunTest)
+
+#include "WizardRunTest.moc"

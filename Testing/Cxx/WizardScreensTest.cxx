@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VideoView.h"
+#include "WidgetTestSupport.h"
+#include "WizardDriver.h"
+#include "WizardPage.h"
+#include "WizardStepBar.h"
+
+#include <QDir>
+#include <QScreen>
+#include <QScrollArea>
+#include <QToolButton>
+
+using handeye::HandEyeWorkbench;
+using handeye::WizardStep;
+
+namespace
+{
+
+QString screenshotFolder()
+{
+  const QString asked = qEnvironmentVariable("HANDEYE_SCREENSHOT_DIR");
+  const QString folder = asked.isEmpty() ? QStringLiteral(HANDEYE_SCREENSHOT_DIR) : asked;
+  QDir().mkpath(folder);
+  return folder;
+}
+
+QString demo(const char* name)
+{
+  return QStringLiteral(HANDEYE_RESOURCES_DIR "/Demo/") + QString::fromLatin1(name);
+}
+
+/// Labels, buttons and boxes that get less room than their words need, or that lie outside of their parents or over one another.
+QStringList faultsOf(QWidget& page)
+{
+  QStringList faults;
+  const QList<QWidget*> children = page.findChildren<QWidget*>();
+  for (QWidget* child : children)
+  {
+    const bool isText = qobject_cast<QLabel*>(child) || qobject_cast<QAbstractButton*>(child);
+    if (!isText || !child->isVisibleTo(&page) || child->size().isEmpty())
+    {
+      continue;
+    }
+    const auto* label = qobject_cast<QLabel*>(child);
+    const bool wraps = label && label->wordWrap();
+    const int needed = wraps ? label->heightForWidth(label->width()) : child->minimumSizeHint().height();
+    const QString name = child->objectName().isEmpty() ? QString::fromLatin1(child->metaObject()->className()) : child->objectName();
+    if (child->height() < needed || (!wraps && child->width() < child->minimumSizeHint().width()))
+    {
+      faults << QStringLiteral("%1 is cut off (%2 x %3)").arg(name).arg(child->width()).arg(child->height());
+    }
+    if (child->parentWidget() && !child->parentWidget()->rect().adjusted(-1, -1, 1, 1).contains(child->geometry()))
+    {
+      faults << QStringLiteral("%1 reaches out of %2").arg(name, child->parentWidget()->objectName());
+    }
+  }
+  return faults;
+}
+
+}  // namespace
+
+/// Every page as a picture, at two sizes, light and dark; nothing cut off.
+class WizardScreensTest : public QObject
+{
+  Q_OBJECT
+
+private slots:
+  void everyPage_AtBothSizes();
+
+private:
+  void fill(HandEyeCalibrationPanel& panel);
+  void takePictures(HandEyeCalibrationPanel& panel, const QSize& size, const QString& mark);
+};
+
+/// A session with everything in it, and the demo's recording as live video.
+void WizardScreensTest::fill(HandEyeCalibrationPanel& panel)
+{
+  HandEyeWorkbench& workbench = panel.workbench();
+  handeye::DeviceSetup setup;
+  QVERIFY(workbench.connectDevices(setup));
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.problemOf(WizardStep::Devices).isEmpty(), 10000);
+  panel.goTo(WizardStep::Stylus);
+  workbench.pivot().start(setup.stylusToTracker);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.stylus().has_value(), 30000);
+  panel.goTo(WizardStep::Capture);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.capture().samples().size() >= 8, 40000);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.calibration() && workbench.calibration()->isUsable(), 5000);
+  panel.goTo(WizardStep::Validation);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count >= 4, 30000);
+}
+
+void WizardScreensTest::takePictures(HandEyeCalibrationPanel& panel, const QSize& size, const QString& mark)
+{
+  panel.resize(size);
+  for (int i = 0; i < handeye::WizardStepCount; ++i)
+  {
+    panel.goTo(WizardStep(i));
+    QTest::qWait(i == int(WizardStep::Overlay) ? 4000 : 700);
+    // The video is drawn by OpenGL: it is taken from the screen.
+    const QPixmap picture = panel.screen()->grabWindow(panel.winId());
+    const QString name = QStringLiteral("%1/wizard-%2-%3%4x%5.png").arg(screenshotFolder()).arg(i + 1).arg(mark).arg(size.width()).arg(size.height());
+    QVERIFY2(picture.save(name), qPrintable(name));
+    const QStringList faults = faultsOf(*static_cast<QWidget*>(panel.page(WizardStep(i))));
+    QVERIFY2(faults.isEmpty(), qPrintable(QStringLiteral("page %1: %2").arg(i + 1).arg(faults.join(QStringLiteral("; ")))));
+    const auto* area = panel.findChild<QScrollArea*>(QStringLiteral("scrollArea"));
+    QVERIFY2(area->widget()->width() <= area->viewport()->width(), qPrintable(QStringLiteral("page %1 is wider than the panel").arg(i + 1)));
+  }
+}
+
+void WizardScreensTest::everyPage_AtBothSizes()
+{
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  testing_widgets::show(panel, QSize(1280, 800));
+  auto room = panel.workbench().devices().roomOptions();
+  room.holdSec = 1;
+  room.moveSec = 0.4;
+  panel.workbench().devices().setRoomOptions(room);
+  fill(panel);
+  takePictures(panel, QSize(1280, 800), {});
+  QApplication::setPalette(testing_widgets::darkPalette());
+  takePictures(panel, QSize(2560, 1440), QStringLiteral("dark-"));
+  QApplication::setPalette(testing_widgets::lightPalette());
+}
+
+HANDEYE_WIDGET_TEST_MAIN(WizardScreensTest)
+
+#include "WizardScreensTest.moc"

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BallPage.h"
+
+#include "Look.h"
+#include "StagesView.h"
+#include "ui_BallPage.h"
+
+#include <QPainter>
+#include <QSignalBlocker>
+
+namespace handeye
+{
+
+BallPage::BallPage(HandEyeWorkbench& workbench, QWidget* parent)
+  : WizardPage(workbench, WizardStep::Ball, parent)
+  , ui_(std::make_unique<Ui::BallPage>())
+{
+  ui_->setupUi(this);
+  connect(ui_->radiusSpin, qOverload<double>(&QDoubleSpinBox::valueChanged), &workbench_, &HandEyeWorkbench::setBallRadius);
+  connect(ui_->forgetButton, &QPushButton::clicked, &workbench_, &HandEyeWorkbench::forgetBallColor);
+  connect(ui_->stages, &StagesView::imageClicked, &workbench_, &HandEyeWorkbench::learnBallColor);
+  connect(ui_->measureButton, &QPushButton::clicked, &workbench_, &HandEyeWorkbench::measureLatency);
+  connect(&workbench_.latency(), &LatencyTask::progressed, this, [this](double share) { ui_->latencyProgress->setValue(int(100 * share)); });
+  connect(&workbench_, &HandEyeWorkbench::latencyChanged, ui_->latencyLabel, &QLabel::setText);
+  connect(&workbench_.live(), &LivePipeline::shown, this, &BallPage::showFrame);
+}
+
+BallPage::~BallPage() = default;
+
+void BallPage::clickInVideo(const QPointF& point_Image)
+{
+  workbench_.learnBallColor(point_Image);
+}
+
+void BallPage::showFrame()
+{
+  const std::shared_ptr<const LiveView> view = workbench_.live().newest();
+  if (!isVisible() || !view)
+  {
+    return;
+  }
+  if (view->stages)
+  {
+    ui_->stages->setStages(view->image(), *view->stages);
+  }
+  if (!view->problem.isEmpty())
+  {
+    ui_->foundLabel->setText(view->problem);
+  }
+  else if (view->ball)
+  {
+    ui_->foundLabel->setText(view->ball->isFound() ? tr("%1 px from side to side, %2 mm away, %3 % of its outline is seen")
+                                                       .arg(2 * view->ball->radiusPx, 0, 'f', 1)
+                                                       .arg(view->ball->distanceMm, 0, 'f', 0)
+                                                       .arg(100 * view->ball->visibleShare, 0, 'f', 0)
+                                                   : QString::fromStdString(view->ball->message));
+  }
+}
+
+void BallPage::refresh()
+{
+  const HandEyeWorkbench::Ball& ball = workbench_.ball();
+  if (!ui_->radiusSpin->hasFocus())
+  {
+    const QSignalBlocker blocker(ui_->radiusSpin);
+    ui_->radiusSpin->setValue(ball.radiusMm);
+  }
+  ui_->colorLabel->setText(ball.isColorLearnt ? tr("learnt: hue %1°").arg(ball.color.hueDeg, 0, 'f', 0) : tr("any saturated red"));
+  ui_->colorLabel->setToolTip(ball.message);
+  QPixmap swatch(QSize(18, 18) * devicePixelRatioF());
+  swatch.setDevicePixelRatio(devicePixelRatioF());
+  const double hueDeg = ball.color.hueDeg < 0 ? ball.color.hueDeg + 360 : ball.color.hueDeg;
+  swatch.fill(QColor::fromHsvF(std::min(hueDeg / 360, 0.9999), 0.85, 0.8));
+  ui_->swatchLabel->setPixmap(swatch);
+  ui_->forgetButton->setEnabled(ball.isColorLearnt);
+  const bool isMeasuring = workbench_.latency().isRunning();
+  ui_->measureButton->setEnabled(!isMeasuring && workbench_.camera() && workbench_.stylus() && workbench_.devices().isConnected());
+  ui_->latencyProgress->setVisible(isMeasuring);
+}
+
+}  // namespace handeye

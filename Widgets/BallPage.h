@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "WizardPage.h"
+
+#include <memory>
+
+namespace Ui
+{
+class BallPage;
+}
+
+namespace handeye
+{
+
+/// The ball: its radius, its colour from one click, the four pictures of its detection; and the latency of the video.
+class BallPage : public WizardPage
+{
+  Q_OBJECT
+
+public:
+  explicit BallPage(HandEyeWorkbench& workbench, QWidget* parent = nullptr);
+  ~BallPage() override;
+
+  void refresh() override;
+  void clickInVideo(const QPointF& point_Image) override;
+
+private:
+  void showFrame();
+
+  std::unique_ptr<Ui::BallPage> ui_;
+};
+
+}  // namespace handeye

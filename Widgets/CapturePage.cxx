@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CapturePage.h"
+
+#include "SampleRows.h"
+#include "ui_CapturePage.h"
+
+#include <QApplication>
+#include <QFileDialog>
+#include <QSignalBlocker>
+
+namespace handeye
+{
+
+CapturePage::CapturePage(HandEyeWorkbench& workbench, QWidget* parent)
+  : WizardPage(workbench, WizardStep::Capture, parent)
+  , ui_(std::make_unique<Ui::CapturePage>())
+{
+  ui_->setupUi(this);
+  CaptureTask& capture = workbench_.capture();
+  ui_->handsFreeBox->setChecked(true);
+  connect(ui_->handsFreeBox, &QCheckBox::toggled, &capture, &CaptureTask::setHandsFree);
+  connect(ui_->takeButton, &QPushButton::clicked, &capture, &CaptureTask::takeNow);
+  connect(ui_->recordingButton, &QPushButton::clicked, this,
+    [this]
+    {
+      const QString path =
+        QFileDialog::getOpenFileName(this, tr("Recording of placements"), {}, tr("Sequence metafiles (*.mha *.igs.mha);;All files (*)"));
+      if (!path.isEmpty())
+      {
+        workbench_.capture().importRecording(path);
+      }
+    });
+  connect(ui_->table, &SampleTable::excludeRequested, &capture, &CaptureTask::setExcluded);
+  connect(ui_->table, &SampleTable::deleteRequested, &capture, [&capture](const QVector<int>& ids) { capture.setDeleted(ids, true); });
+  connect(ui_->table, &SampleTable::restoreRequested, &capture, [&capture](const QVector<int>& ids) { capture.setDeleted(ids, false); });
+  connect(ui_->nearestSpin, &QDoubleSpinBox::editingFinished, this,
+    [this] { workbench_.setWorkingDepths(ui_->nearestSpin->value(), ui_->furthestSpin->value()); });
+  connect(ui_->furthestSpin, &QDoubleSpinBox::editingFinished, this,
+    [this] { workbench_.setWorkingDepths(ui_->nearestSpin->value(), ui_->furthestSpin->value()); });
+  connect(ui_->enoughSpin, qOverload<double>(&QDoubleSpinBox::valueChanged), &workbench_, &HandEyeWorkbench::setEnoughPx);
+  connect(&capture, &CaptureTask::samplesChanged, this, &CapturePage::showSamples);
+  connect(&capture, &CaptureTask::hintChanged, this, [this] { ui_->hintLabel->setText(workbench_.capture().hint()); });
+  connect(&capture, &CaptureTask::accepted, this,
+    [this](int id)
+    {
+      ui_->hintLabel->setText(tr("Sample %1 is stored.").arg(id));
+      if (ui_->soundBox->isChecked())
+      {
+        QApplication::beep();
+      }
+    });
+  connect(&capture, &CaptureTask::imported, this,
+    [this](int taken, int refused, const QString& reason)
+    {
+      ui_->hintLabel->setText(refused == 0
+          ? tr("%1 samples from the recording.").arg(taken)
+          : tr("%1 samples from the recording; %2 frames were left out, the first: %3").arg(taken).arg(refused).arg(reason));
+    });
+  connect(&workbench_, &HandEyeWorkbench::calibrationChanged, this, &CapturePage::showCalibration);
+  connect(&workbench_, &HandEyeWorkbench::sessionOpened, this, [this] { ui_->table->clearHistory(); });
+}
+
+CapturePage::~CapturePage() = default;
+
+void CapturePage::enter()
+{
+  workbench_.capture().setHandsFree(ui_->handsFreeBox->isChecked());
+  showSamples();
+  showCalibration();
+}
+
+bool CapturePage::keyInVideo(int key)
+{
+  if (key == Qt::Key_Space)
+  {
+    workbench_.capture().takeNow();
+    return true;
+  }
+  return false;
+}
+
+void CapturePage::showSamples()
+{
+  ui_->table->setRows(calibrationRows(workbench_.capture().samples(), workbench_.calibration()));
+}
+
+void CapturePage::showCalibration()
+{
+  showSamples();
+  const std::optional<CalibrationStepResult>& calibration = workbench_.calibration();
+  QVector<CoverageView::Place> places;
+  for (const CapturedFrame& frame : workbench_.capture().frames())
+  {
+    if (frame.isSample())
+    {
+      places.push_back({ QPointF(frame.ball.ball_Image.x(), frame.ball.ball_Image.y()), frame.ball.distanceMm });
+    }
+  }
+  if (workbench_.camera() && workbench_.camera()->file.camera.hasImageSize())
+  {
+    ui_->coverage->setImageSize(QSize(workbench_.camera()->file.camera.width(), workbench_.camera()->file.camera.height()));
+  }
+  ui_->coverage->setWorkingRange(workbench_.nearestMm(), workbench_.furthestMm());
+  ui_->coverage->setPlaces(places);
+  std::optional<CoverageView::Place> next;
+  if (calibration && calibration->guidance && calibration->guidance->status != HandEyeGuidance::Status::NoPlace)
+  {
+    const HandEyeGuidance& guidance = *calibration->guidance;
+    next = CoverageView::Place{ QPointF(guidance.ball_Image.x(), guidance.ball_Image.y()), guidance.ball_Camera.norm() };
+    ui_->guidanceLabel->setText(tr("Next: %1").arg(QString::fromStdString(guidance.message)));
+  }
+  else
+  {
+    ui_->guidanceLabel->clear();
+  }
+  ui_->coverage->setNextPlace(next);
+  const bool isUsable = calibration && calibration->isUsable();
+  const QString verdict = !calibration ? tr("No samples yet.") : QString::fromStdString(calibration->decisive().message);
+  ui_->verdictLabel->setText(workbench_.isEnough() ? tr("<b>Enough.</b> %1").arg(verdict.toHtmlEscaped()) : verdict.toHtmlEscaped());
+  const bool isNews = workbench_.isEnough() && !isEnoughSaid_;
+  isEnoughSaid_ = isUsable && workbench_.isEnough();
+  if (isNews && ui_->soundBox->isChecked())
+  {
+    QApplication::beep();
+  }
+}
+
+void CapturePage::refresh()
+{
+  const bool isReady = workbench_.missingFor(WizardStep::Capture).isEmpty();
+  const bool isLive = workbench_.devices().isConnected();
+  ui_->handsFreeBox->setEnabled(isReady && isLive);
+  ui_->takeButton->setEnabled(isReady && isLive);
+  ui_->recordingButton->setEnabled(isReady && !workbench_.capture().isBusy());
+  for (const auto& [spin, value] : { std::pair{ ui_->nearestSpin, workbench_.nearestMm() },
+         std::pair{ ui_->furthestSpin, workbench_.furthestMm() }, std::pair{ ui_->enoughSpin, workbench_.enoughPx() } })
+  {
+    if (!spin->hasFocus())
+    {
+      const QSignalBlocker blocker(spin);
+      spin->setValue(value);
+    }
+  }
+}
+
+}  // namespace handeye

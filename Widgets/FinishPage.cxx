@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FinishPage.h"
+
+#include "CalibrationExport.h"
+#include "ui_FinishPage.h"
+
+#include <QUrl>
+
+namespace handeye
+{
+
+FinishPage::FinishPage(HandEyeWorkbench& workbench, QWidget* parent)
+  : WizardPage(workbench, WizardStep::Finish, parent)
+  , ui_(std::make_unique<Ui::FinishPage>())
+{
+  ui_->setupUi(this);
+  ui_->sessionLabel->setOpenExternalLinks(true);
+  connect(ui_->exports, &ExportPanel::reportRequested, &workbench_,
+    [this](const QString& folder) { workbench_.writeReport(folder + QStringLiteral("/report")); });
+  connect(&workbench_, &HandEyeWorkbench::reportWritten, this,
+    [this](const QString& path) { ui_->exports->addWrittenFile(path, tr("report of the validation")); });
+  connect(&workbench_, &HandEyeWorkbench::refused, this,
+    [this](WizardStep step, const QString& message)
+    {
+      if (step == WizardStep::Finish)
+      {
+        ui_->exports->showError(message);
+      }
+    });
+}
+
+FinishPage::~FinishPage() = default;
+
+void FinishPage::enter()
+{
+  const auto fileOf = [this](const char* name) { return workbench_.documentPath(QString::fromLatin1(name)).toStdString(); };
+  ExportSources sources;
+  const bool isCalibrated = workbench_.calibration() && workbench_.calibration()->isUsable();
+  if (isCalibrated)
+  {
+    sources.calibration = fileOf("calibration");
+  }
+  if (isCalibrated && workbench_.stylus())
+  {
+    sources.stylus = fileOf("stylus");
+  }
+  if (isCalibrated && workbench_.modelToPhantom())
+  {
+    sources.registration = fileOf("phantom");
+    sources.model = workbench_.modelPath().toStdString();
+  }
+  ui_->exports->setSources(sources);
+  if (ui_->exports->folder().isEmpty())
+  {
+    ui_->exports->setFolder(workbench_.sessionFolder() + QStringLiteral("/export"));
+  }
+  const bool isValidated = workbench_.validation() && workbench_.validation()->isUsable();
+  ui_->exports->setReportEnabled(isValidated, isValidated ? QString() : tr("There is no validation yet: see the page Validation."));
+}
+
+void FinishPage::refresh()
+{
+  const QString folder = workbench_.sessionFolder();
+  ui_->sessionLabel->setText(folder.isEmpty()
+      ? tr("No session is open.")
+      : tr("Everything is stored in <a href=\"%1\">%2</a>; nothing needs to be saved.")
+          .arg(QUrl::fromLocalFile(folder).toString(), folder.toHtmlEscaped()));
+  QStringList lines;
+  for (const WizardStep step : { WizardStep::Stylus, WizardStep::Capture, WizardStep::Validation, WizardStep::Overlay })
+  {
+    const QString verdict = workbench_.verdictOf(step);
+    const QString problem = workbench_.problemOf(step);
+    const char* const names[] = { "", "", QT_TR_NOOP("Stylus"), "", QT_TR_NOOP("Calibration"), QT_TR_NOOP("Validation"),
+      QT_TR_NOOP("Phantom") };
+    lines << QStringLiteral("<tr><td>%1: </td><td>%2</td></tr>")
+               .arg(tr(names[int(step)]), (problem.isEmpty() ? verdict : problem).toHtmlEscaped());
+  }
+  ui_->summaryLabel->setText(QStringLiteral("<table cellspacing='4'>") + lines.join(QString()) + QStringLiteral("</table>"));
+}
+
+}  // namespace handeye

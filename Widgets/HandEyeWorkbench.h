@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CalibrationStep.h"
+#include "CameraFile.h"
+#include "CaptureTask.h"
+#include "DeviceHub.h"
+#include "LandmarkRegistration.h"
+#include "LatencyTask.h"
+#include "LivePipeline.h"
+#include "PivotTask.h"
+#include "ValidationStep.h"
+
+#include <nlohmann/json.hpp>
+
+#include <Eigen/Core>
+#include <QObject>
+#include <QString>
+#include <QTimer>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <memory>
+#include <optional>
+
+class vtkSlicerHandEyeCalibrationLogic;
+
+namespace handeye
+{
+
+class WorkThread;
+
+/// The steps of the wizard, in its order.
+enum class WizardStep
+{
+  Devices,
+  Camera,
+  Stylus,
+  Ball,
+  Capture,
+  Validation,
+  Overlay,
+  Finish
+};
+constexpr int WizardStepCount = 8;
+
+/// The wizard without its windows: devices, tasks and results of one session. Every result is stored with the session as soon as it is
+/// there, and comes back when the session is opened again.
+///
+/// Frames and units are those of the layers below (mm, px): p_Camera = markerToCamera * p_Marker.
+///
+/// Belongs to the thread of the user interface and never makes it wait; the work is done in a thread beside it.
+class HandEyeWorkbench : public QObject
+{
+  Q_OBJECT
+
+public:
+  struct Camera
+  {
+    io::CameraFile file;
+    QString origin;  ///< the file's name, or where else it is from
+  };
+  struct Stylus
+  {
+    Eigen::Vector3d tip_Stylus = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d tipCovariance = Eigen::Matrix3d::Zero();
+    double rmsMm = 0;
+    QString message;
+    nlohmann::json document;
+  };
+  struct Ball
+  {
+    double radiusMm = 15;
+    BallColor color;
+    bool isColorLearnt = false;
+    bool wasSeen = false;  ///< found at least once with this colour and radius
+    QString message;       ///< of the last click
+  };
+
+  /// @param logic receives the results; may be null
+  explicit HandEyeWorkbench(vtkSlicerHandEyeCalibrationLogic* logic, QObject* parent = nullptr);
+  ~HandEyeWorkbench() override;
+
+  DeviceHub& devices() { return *devices_; }
+  LivePipeline& live() { return *live_; }
+  PivotTask& pivot() { return *pivot_; }
+  LatencyTask& latency() { return *latency_; }
+  CaptureTask& capture() { return *capture_; }
+  CaptureTask& validationCapture() { return *validationCapture_; }
+
+  // Session
+  /// A folder that there is not yet, for a new session.
+  static QString newSessionFolder();
+  void openSession(const QString& folder);
+  QString sessionFolder() const { return capture_->folder(); }
+  /// What was odd about it: sentences.
+  QStringList sessionProblems() const { return sessionProblems_; }
+  QString documentPath(const QString& name) const;
+
+  // Devices
+  bool connectDevices(const DeviceSetup& setup);
+  void setStreamNames(const DeviceSetup& setup);
+  /// The page that a person is on: the simulated room follows it, and the ball is looked for where it is needed.
+  void enterStep(WizardStep step);
+  WizardStep step() const { return step_; }
+
+  // Camera, stylus, ball
+  void loadCamera(const QString& path);
+  void setCamera(const io::CameraFile& file, const QString& origin);
+  const std::optional<Camera>& camera() const { return camera_; }
+  void loadStylus(const QString& path);
+  const std::optional<Stylus>& stylus() const { return stylus_; }
+  void setBallRadius(double radiusMm);
+  /// From the newest frame of the live video. @param point_Image px
+  void learnBallColor(const QPointF& point_Image);
+  void forgetBallColor();
+  const Ball& ball() const { return ball_; }
+  void measureLatency();
+
+  // Calibration and validation
+  /// The last attempt, usable or not; nothing before the first sample.
+  const std::optional<CalibrationStepResult>& calibration() const { return calibration_; }
+  const std::optional<ValidationStepResult>& validation() const { return validation_; }
+  void setWorkingDepths(double nearestMm, double furthestMm);
+  double nearestMm() const { return nearestMm_; }
+  double furthestMm() const { return furthestMm_; }
+  /// Below this largest predicted error the samples are enough, px.
+  void setEnoughPx(double px);
+  double enoughPx() const { return enoughPx_; }
+  bool isEnough() const;
+  void writeReport(const QString& folder);
+
+  // Overlay
+  void loadModel(const QString& path);
+  vtkPolyData* model() const { return model_; }
+  QString modelPath() const { return modelPath_; }
+  /// The model that comes with the program, and its landmarks; empty if it was not found.
+  static QString ownModel();
+  static QString ownLandmarks();
+  void registerLandmarks(const std::vector<Eigen::Vector3d>& points_Model, const std::vector<Eigen::Vector3d>& points_Phantom);
+  void loadRegistration(const QString& path);
+  void saveRegistration(const QString& path);
+  const std::optional<Eigen::Isometry3d>& modelToPhantom() const { return modelToPhantom_; }
+  const std::optional<LandmarkRegistrationResult>& registration() const { return registration_; }
+  /// Where the model is in a frame, or why that is not known. p_Camera = modelToCamera * p_Model
+  std::optional<Eigen::Isometry3d> modelToCamera(const devices::PairedFrame& frame, QString& reason) const;
+
+  // What a page may go on with
+  /// Why a step's result is not usable, a sentence; empty if it is.
+  QString problemOf(WizardStep step) const;
+  /// What a step needs of earlier ones and does not have: a sentence with where to get it; empty if it can be worked on.
+  QString missingFor(WizardStep step) const;
+  /// The verdict of a step in plain words; empty while there is none.
+  QString verdictOf(WizardStep step) const;
+
+  void cancelWork();
+
+signals:
+  /// Something about a step's inputs or result is different.
+  void stateChanged();
+  void stepEntered();
+  void sessionOpened();
+  void cameraChanged();
+  void stylusChanged();
+  void ballChanged();
+  void latencyChanged(const QString& message);
+  void calibrationChanged();
+  void validationChanged();
+  void modelChanged();
+  void registrationChanged();
+  void reportWritten(const QString& path);
+  /// Something asked for was refused, in words; of which step.
+  void refused(handeye::WizardStep step, const QString& message);
+  /// For the log: what happened.
+  void happened(const QString& message);
+
+private:
+  void connectTasks();
+  void takeDocuments(const std::map<std::string, nlohmann::json>& documents, const QStringList& problems);
+  void restoreFiles(const std::map<std::string, nlohmann::json>& documents);
+  void storeBall();
+  void storeDevices();
+  void store(const std::string& name, const nlohmann::json& document);
+  void setStylus(const Stylus& stylus, bool isNew);
+  void updateInputs();
+  void updateLive();
+  void recalibrate();
+  void calibrateNow();
+  void takeCalibration(const CalibrationStepResult& result);
+  void revalidate();
+  void refuse(WizardStep step, const QString& message);
+  /// Work beside the window; what it throws is a refusal of the step.
+  void beside(WizardStep step, std::function<void()> work);
+  void tell(std::function<void()> news);
+  void onSample(const devices::DeviceSample& sample);
+  void onFrame(const devices::PairedFrame& frame);
+
+  vtkSlicerHandEyeCalibrationLogic* logic_;
+  std::unique_ptr<WorkThread> work_;
+  DeviceHub* devices_;
+  LivePipeline* live_;
+  PivotTask* pivot_;
+  LatencyTask* latency_;
+  CaptureTask* capture_;
+  CaptureTask* validationCapture_;
+  WizardStep step_ = WizardStep::Devices;
+  QStringList sessionProblems_;
+  std::optional<Camera> camera_;
+  std::optional<Stylus> stylus_;
+  Ball ball_;
+  std::optional<CalibrationStepResult> calibration_;
+  std::optional<ValidationStepResult> validation_;
+  double nearestMm_ = 160, furthestMm_ = 420, enoughPx_ = 1.5;
+  bool isCalibrationAsked_ = false, isCalibrating_ = false, isCalibrationStale_ = false;
+  vtkSmartPointer<vtkPolyData> model_;
+  QString modelPath_;
+  std::optional<Eigen::Isometry3d> modelToPhantom_;
+  std::optional<LandmarkRegistrationResult> registration_;
+};
+
+}  // namespace handeye

@@ -1,0 +1,273 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "HandEyeWorkbench.h"
+
+#include "MeshReader.h"
+#include "OverlayPose.h"
+#include "ResultFiles.h"
+#include "ValidationReport.h"
+#include "WorkThread.h"
+#include "vtkSlicerHandEyeCalibrationLogic.h"
+
+#include <QCoreApplication>
+#include <QFileInfo>
+
+#include <utility>
+
+namespace handeye
+{
+
+namespace
+{
+
+/// A file that is installed with the program, or lies in the source folder that it was built from.
+QString meshFile(const char* name)
+{
+  const QString installed =
+    QCoreApplication::applicationDirPath() + QStringLiteral("/../share/handeye/Meshes/") + QString::fromLatin1(name);
+  const QString source = QStringLiteral(HANDEYE_MESHES_DIR "/") + QString::fromLatin1(name);
+  return QFileInfo::exists(installed) ? installed : QFileInfo::exists(source) ? source : QString();
+}
+
+}  // namespace
+
+/// Once for many changes, and not while one is under way.
+void HandEyeWorkbench::recalibrate()
+{
+  emit stateChanged();
+  if (capture_->isBusy() || std::exchange(isCalibrationAsked_, true))
+  {
+    return;
+  }
+  QTimer::singleShot(0, this,
+    [this]
+    {
+      isCalibrationAsked_ = false;
+      calibrateNow();
+    });
+}
+
+void HandEyeWorkbench::calibrateNow()
+{
+  if (isCalibrating_)
+  {
+    isCalibrationStale_ = true;  // asked for again when that is done
+    return;
+  }
+  const std::vector<CapturedFrame> frames = capture_->frames();
+  const std::optional<CaptureInputs>& inputs = capture_->inputs();
+  if (!inputs)
+  {
+    calibration_.reset();
+    emit calibrationChanged();
+    return;
+  }
+  isCalibrating_ = true;
+  HandEyeCalibrationOptions options;
+  options.tipCovariance_Stylus = stylus_->tipCovariance;
+  work_->post(
+    [this, frames, taken = *inputs, options, depths = DepthRange({ nearestMm_, furthestMm_ }), tip = stylus_->tip_Stylus]
+    {
+      std::optional<CalibrationStepResult> step;
+      try
+      {
+        step = calibrateCapture({ taken.camera, frames }, options);
+        step->tip_Stylus = tip;
+        step->ballRadiusMm = taken.ballRadiusMm;
+        step->tools = taken.tools;
+        addGuidance(*step, options, depths);
+      }
+      catch (const std::exception& error)
+      {
+        tell([this, message = QString::fromUtf8(error.what())] { refuse(WizardStep::Capture, message); });
+      }
+      tell(
+        [this, step]
+        {
+          isCalibrating_ = false;
+          if (step)
+          {
+            takeCalibration(*step);
+          }
+          if (std::exchange(isCalibrationStale_, false))
+          {
+            recalibrate();
+          }
+        });
+    });
+}
+
+void HandEyeWorkbench::takeCalibration(const CalibrationStepResult& result)
+{
+  calibration_ = result;
+  if (!capture_->samples().isEmpty())
+  {
+    store("calibration", calibrationJson(result));
+  }
+  if (logic_ && result.isUsable() && capture_->isOpen())
+  {
+    // The file is there once the work before this is done.
+    const QString file = documentPath(QStringLiteral("calibration"));
+    work_->post([this, file] { tell([this, file] { logic_->LoadCalibration(file.toStdString()); }); });
+  }
+  emit calibrationChanged();
+  revalidate();
+}
+
+void HandEyeWorkbench::revalidate()
+{
+  const std::vector<CapturedFrame> frames = validationCapture_->frames();
+  validation_.reset();
+  if (!frames.empty() && calibration_ && calibration_->isUsable())
+  {
+    validation_ = validateCapture(frames, calibration_->camera, calibration_->calibration.markerToCamera);
+    store("validation", validationJson(*validation_));
+  }
+  emit validationChanged();
+  emit stateChanged();
+}
+
+void HandEyeWorkbench::setWorkingDepths(double nearestMm, double furthestMm)
+{
+  if (nearestMm > 0 && nearestMm < furthestMm)
+  {
+    nearestMm_ = nearestMm;
+    furthestMm_ = furthestMm;
+    storeBall();
+    recalibrate();
+  }
+}
+
+void HandEyeWorkbench::setEnoughPx(double px)
+{
+  enoughPx_ = px;
+  storeBall();
+  emit calibrationChanged();
+  emit stateChanged();
+}
+
+bool HandEyeWorkbench::isEnough() const
+{
+  return calibration_ && calibration_->isUsable() && calibration_->calibration.predicted.maximumPx <= enoughPx_;
+}
+
+void HandEyeWorkbench::writeReport(const QString& folder)
+{
+  if (!validation_)
+  {
+    refuse(WizardStep::Finish, tr("The report is one of the validation, which is still to be done."));
+    return;
+  }
+  const std::filesystem::path recording = validationCapture_->folder().toStdString();
+  beside(WizardStep::Finish,
+    [this, folder, recording, validation = *validation_]
+    {
+      writeValidationReport(folder.toStdString(), validation, io::Recording::open(recording));
+      tell([this, folder] { emit reportWritten(folder + QStringLiteral("/report.html")); });
+    });
+}
+
+QString HandEyeWorkbench::ownModel()
+{
+  return meshFile("Vertebra.ply");
+}
+
+QString HandEyeWorkbench::ownLandmarks()
+{
+  return meshFile("VertebraLandmarks.txt");
+}
+
+void HandEyeWorkbench::loadModel(const QString& path)
+{
+  beside(WizardStep::Overlay,
+    [this, path]
+    {
+      const vtkSmartPointer<vtkPolyData> mesh = readMesh(path.toStdString());
+      tell(
+        [this, mesh, path]
+        {
+          model_ = mesh;
+          modelPath_ = path;
+          store("model", { { "file", path.toStdString() } });
+          emit modelChanged();
+          emit stateChanged();
+        });
+    });
+}
+
+void HandEyeWorkbench::registerLandmarks(
+  const std::vector<Eigen::Vector3d>& points_Model, const std::vector<Eigen::Vector3d>& points_Phantom)
+{
+  beside(WizardStep::Overlay,
+    [this, points_Model, points_Phantom]
+    {
+      const LandmarkRegistrationResult result = handeye::registerLandmarks(points_Model, points_Phantom);
+      tell(
+        [this, result]
+        {
+          registration_ = result;
+          modelToPhantom_.reset();
+          if (result.isUsable())
+          {
+            modelToPhantom_ = result.modelToPhantom;
+            store("phantom", phantomJson(result));
+          }
+          emit registrationChanged();
+          emit stateChanged();
+        });
+    });
+}
+
+void HandEyeWorkbench::loadRegistration(const QString& path)
+{
+  beside(WizardStep::Overlay,
+    [this, path]
+    {
+      const Eigen::Isometry3d modelToPhantom = readPhantomRegistration(path.toStdString());
+      tell(
+        [this, modelToPhantom]
+        {
+          registration_.reset();
+          modelToPhantom_ = modelToPhantom;
+          emit registrationChanged();
+          emit stateChanged();
+        });
+    });
+}
+
+void HandEyeWorkbench::saveRegistration(const QString& path)
+{
+  if (registration_ && registration_->isUsable())
+  {
+    beside(WizardStep::Overlay, [path, document = phantomJson(*registration_)] { writeJson(path.toStdString(), document); });
+  }
+}
+
+std::optional<Eigen::Isometry3d> HandEyeWorkbench::modelToCamera(const devices::PairedFrame& frame, QString& reason) const
+{
+  if (!calibration_ || !calibration_->isUsable())
+  {
+    reason = tr("The camera is not calibrated yet.");
+    return std::nullopt;
+  }
+  if (!modelToPhantom_)
+  {
+    reason = tr("The phantom is not registered yet: touch its landmarks, or load a registration.");
+    return std::nullopt;
+  }
+  const DeviceSetup& setup = devices_->setup();
+  for (const QString& name : { setup.markerToTracker, setup.phantomToTracker })
+  {
+    const auto pose = frame.poses.find(name.toStdString());
+    if (pose == frame.poses.end() || !pose->second.isUsable())
+    {
+      reason = name + QStringLiteral(": ") +
+        (pose == frame.poses.end() ? tr("no pose was received") : QString::fromStdString(pose->second.message));
+      return std::nullopt;
+    }
+  }
+  return toModelToCamera({ calibration_->calibration.markerToCamera, *modelToPhantom_ },
+    frame.poses.at(setup.markerToTracker.toStdString()).transform, frame.poses.at(setup.phantomToTracker.toStdString()).transform);
+}
+
+}  // namespace handeye

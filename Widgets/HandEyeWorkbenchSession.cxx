@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "HandEyeWorkbench.h"
+
+#include "ResultFiles.h"
+
+#include <QDateTime>
+#include <QDir>
+#include <QFileInfo>
+#include <QStandardPaths>
+
+namespace handeye
+{
+
+namespace
+{
+
+using nlohmann::json;
+
+double number(const json& object, const char* key, double otherwise)
+{
+  const json value = object.is_object() ? object.value(key, json()) : json();
+  return value.is_number() ? value.get<double>() : otherwise;
+}
+
+QString text(const json& object, const char* key, const QString& otherwise)
+{
+  const json value = object.is_object() ? object.value(key, json()) : json();
+  return value.is_string() ? QString::fromStdString(value.get<std::string>()) : otherwise;
+}
+
+json entry(const std::map<std::string, json>& documents, const char* name)
+{
+  const auto found = documents.find(name);
+  return found == documents.end() || !found->second.is_object() ? json() : found->second;
+}
+
+}  // namespace
+
+QString HandEyeWorkbench::newSessionFolder()
+{
+  const QDir folder(QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + QStringLiteral("/HandEyeCalibration"));
+  const QString name = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd_HH-mm-ss"));
+  QString path = folder.filePath(name);
+  for (int i = 2; QFileInfo::exists(path); ++i)
+  {
+    path = folder.filePath(name + QLatin1Char('_') + QString::number(i));
+  }
+  return path;
+}
+
+void HandEyeWorkbench::openSession(const QString& folder)
+{
+  camera_.reset();
+  stylus_.reset();
+  ball_ = {};
+  calibration_.reset();
+  validation_.reset();
+  modelToPhantom_.reset();
+  registration_.reset();
+  sessionProblems_.clear();
+  capture_->setInputs({});
+  validationCapture_->setInputs({});
+  QDir().mkpath(folder);
+  capture_->openFolder(folder);
+  validationCapture_->openFolder(folder + QStringLiteral("/validation"));
+}
+
+QString HandEyeWorkbench::documentPath(const QString& name) const
+{
+  return capture_->isOpen() ? capture_->folder() + QStringLiteral("/documents/") + name + QStringLiteral(".json") : QString();
+}
+
+void HandEyeWorkbench::store(const std::string& name, const json& document)
+{
+  capture_->setDocument(name, document);
+}
+
+void HandEyeWorkbench::storeBall()
+{
+  const BallColor& color = ball_.color;
+  store("ball",
+    { { "radiusMm", ball_.radiusMm }, { "isColorLearnt", ball_.isColorLearnt }, { "message", ball_.message.toStdString() },
+      { "hueDeg", color.hueDeg }, { "hueToleranceDeg", color.hueToleranceDeg }, { "minimumSaturation", color.minimumSaturation },
+      { "minimumValue", color.minimumValue }, { "minimumChroma", color.minimumChroma },
+      { "minimumMedianSaturation", color.minimumMedianSaturation }, { "nearestMm", nearestMm_ }, { "furthestMm", furthestMm_ },
+      { "enoughPx", enoughPx_ } });
+}
+
+void HandEyeWorkbench::storeDevices()
+{
+  const DeviceSetup& setup = devices_->setup();
+  json servers = json::array();
+  for (const QString& server : setup.servers)
+  {
+    servers.push_back(server.toStdString());
+  }
+  store("devices",
+    { { "kind", int(setup.kind) }, { "servers", servers }, { "camera", setup.camera.toStdString() },
+      { "recording", setup.recording.toStdString() }, { "stylusToTracker", setup.stylusToTracker.toStdString() },
+      { "markerToTracker", setup.markerToTracker.toStdString() }, { "phantomToTracker", setup.phantomToTracker.toStdString() },
+      { "image", setup.image.toStdString() }, { "latencySec", setup.latencySec } });
+}
+
+/// What a session holds becomes the state; a document that cannot be read is a problem, and the rest comes back.
+void HandEyeWorkbench::takeDocuments(const std::map<std::string, json>& documents, const QStringList& problems)
+{
+  sessionProblems_ = problems;
+  const json ball = entry(documents, "ball");
+  ball_.radiusMm = number(ball, "radiusMm", ball_.radiusMm);
+  ball_.isColorLearnt = ball.is_object() && ball.value("isColorLearnt", json()) == json(true);
+  ball_.message = text(ball, "message", {});
+  BallColor color;
+  color.hueDeg = number(ball, "hueDeg", color.hueDeg);
+  color.hueToleranceDeg = number(ball, "hueToleranceDeg", color.hueToleranceDeg);
+  color.minimumSaturation = number(ball, "minimumSaturation", color.minimumSaturation);
+  color.minimumValue = number(ball, "minimumValue", color.minimumValue);
+  color.minimumChroma = number(ball, "minimumChroma", color.minimumChroma);
+  color.minimumMedianSaturation = number(ball, "minimumMedianSaturation", color.minimumMedianSaturation);
+  ball_.color = color;
+  nearestMm_ = number(ball, "nearestMm", nearestMm_);
+  furthestMm_ = number(ball, "furthestMm", furthestMm_);
+  enoughPx_ = number(ball, "enoughPx", enoughPx_);
+  const json devices = entry(documents, "devices");
+  if (devices.is_object() && !devices_->isConnected())
+  {
+    DeviceSetup setup = devices_->setup();
+    setup.stylusToTracker = text(devices, "stylusToTracker", setup.stylusToTracker);
+    setup.markerToTracker = text(devices, "markerToTracker", setup.markerToTracker);
+    setup.phantomToTracker = text(devices, "phantomToTracker", setup.phantomToTracker);
+    setup.image = text(devices, "image", setup.image);
+    setup.latencySec = number(devices, "latencySec", setup.latencySec);
+    devices_->setNames(setup);
+  }
+  restoreFiles(documents);
+  emit ballChanged();
+  emit sessionOpened();
+  emit happened(tr("session %1").arg(capture_->folder()));
+  emit stateChanged();
+}
+
+/// Results by the readers of their files, so that a damaged one is refused like any other.
+void HandEyeWorkbench::restoreFiles(const std::map<std::string, json>& documents)
+{
+  const json camera = entry(documents, "camera");
+  if (camera.is_object())
+  {
+    beside(WizardStep::Camera,
+      [this, path = documentPath(QStringLiteral("camera")), origin = text(camera, "origin", tr("the session"))]
+      {
+        const io::CameraFile file = io::readCameraFile(path.toStdString());
+        tell(
+          [this, file, origin]
+          {
+            camera_ = Camera{ file, origin };
+            emit cameraChanged();
+            updateInputs();
+          });
+      });
+  }
+  if (const json stylus = entry(documents, "stylus"); stylus.is_object())
+  {
+    beside(WizardStep::Stylus,
+      [this, stylus, path = std::filesystem::path(documentPath(QStringLiteral("stylus")).toStdString())]
+      {
+        const Stylus restored{ readStylusTip(path), readStylusTipCovariance(path), number(stylus, "rmsMm", 0),
+          text(stylus, "message", {}), stylus };
+        tell([this, restored] { setStylus(restored, false); });
+      });
+  }
+  if (const json model = entry(documents, "model"); model.is_object())
+  {
+    loadModel(text(model, "file", {}));
+  }
+  if (entry(documents, "phantom").is_object())
+  {
+    loadRegistration(documentPath(QStringLiteral("phantom")));
+  }
+}
+
+}  // namespace handeye

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "HandEyeWorkbench.h"
+
+namespace handeye
+{
+
+QString HandEyeWorkbench::missingFor(WizardStep step) const
+{
+  if (step == WizardStep::Devices || step == WizardStep::Camera || step == WizardStep::Stylus)
+  {
+    return {};
+  }
+  if (!camera_)
+  {
+    return tr("The camera's lens is not known: load a camera file on the page Camera.");
+  }
+  if (step == WizardStep::Ball)
+  {
+    return {};
+  }
+  if (!stylus_)
+  {
+    return tr("The stylus is not calibrated: pivot it, or load a stylus file, on the page Stylus.");
+  }
+  if (step == WizardStep::Capture)
+  {
+    return {};
+  }
+  if (!calibration_ || !calibration_->isUsable())
+  {
+    return tr("There is no calibration yet: collect placements of the ball on the page Capture.");
+  }
+  return {};
+}
+
+QString HandEyeWorkbench::problemOf(WizardStep step) const
+{
+  const QString missing = missingFor(step);
+  if (!missing.isEmpty())
+  {
+    return missing;
+  }
+  switch (step)
+  {
+    case WizardStep::Devices:
+      return devices_->missing(true);
+    case WizardStep::Camera:
+      return camera_ ? QString() : tr("Load a camera file, or choose a source that knows its camera.");
+    case WizardStep::Stylus:
+      return pivot_->isCollecting() ? tr("The pivoting is still under way.")
+        : stylus_                   ? QString()
+                                    : tr("Pivot the stylus, or load a stylus file.");
+    case WizardStep::Ball:
+      return ball_.wasSeen || !capture_->samples().isEmpty()
+        ? QString()
+        : tr("The ball has not been found yet: hold it into the view, and click on it if it is not marked.");
+    case WizardStep::Capture:
+      if (capture_->isBusy())
+      {
+        return tr("The samples are being looked at.");
+      }
+      return calibration_ && calibration_->isUsable() ? QString()
+        : calibration_                                ? QString::fromStdString(calibration_->decisive().message)
+                                                      : tr("Collect placements of the ball.");
+    case WizardStep::Validation:
+      return validation_ && validation_->isUsable() ? QString()
+                                                    : tr("Hold the ball at a few other places, so that the calibration is tested on them.");
+    case WizardStep::Overlay:
+      return !model_ ? tr("Load a model.")
+        : modelToPhantom_
+        ? QString()
+        : registration_ ? QString::fromStdString(registration_->message)
+                        : tr("Register the phantom: touch its landmarks, or load a registration.");
+    case WizardStep::Finish:
+      return {};
+  }
+  return {};
+}
+
+QString HandEyeWorkbench::verdictOf(WizardStep step) const
+{
+  switch (step)
+  {
+    case WizardStep::Devices:
+      return devices_->missing(true).isEmpty() ? tr("Stylus, camera marker and video arrive.") : QString();
+    case WizardStep::Camera:
+      return camera_ ? tr("Lens from %1.").arg(camera_->origin) : QString();
+    case WizardStep::Stylus:
+      return stylus_ ? stylus_->message : QString();
+    case WizardStep::Ball:
+      return ball_.wasSeen ? tr("The ball is found.") : QString();
+    case WizardStep::Capture:
+      return calibration_ && calibration_->isUsable() ? QString::fromStdString(calibration_->calibration.message) : QString();
+    case WizardStep::Validation:
+      return validation_ ? QString::fromStdString(validation_->message) : QString();
+    case WizardStep::Overlay:
+      return registration_ && registration_->isUsable() ? QString::fromStdString(registration_->message) : QString();
+    case WizardStep::Finish:
+      break;
+  }
+  return {};
+}
+
+}  // namespace handeye

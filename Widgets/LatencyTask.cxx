@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LatencyTask.h"
+
+#include "WorkThread.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace handeye
+{
+
+LatencyTask::LatencyTask(WorkThread& work, QObject* parent)
+  : QObject(parent)
+  , work_(work)
+{
+}
+
+void LatencyTask::start(const CameraModel& camera, const Eigen::Vector3d& tip_Stylus, const QString& markerToTracker,
+  const QString& stylusToTracker, double seconds)
+{
+  PoseTrackOptions options;
+  options.historySec = 10 * seconds;
+  options.maximumRepeatSec = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    collection_ = Collection{ markerToTracker.toStdString(), stylusToTracker.toStdString(), PoseTrack(options), PoseTrack(options), {},
+      seconds, -1 };
+  }
+  camera_ = camera;
+  tip_Stylus_ = tip_Stylus;
+  isRunning_ = true;
+  emit runningChanged();
+}
+
+void LatencyTask::cancel()
+{
+  {
+    const std::lock_guard lock(mutex_);
+    collection_.reset();
+  }
+  if (std::exchange(isRunning_, false))
+  {
+    emit runningChanged();
+  }
+}
+
+void LatencyTask::onSample(const devices::DeviceSample& sample)
+{
+  const std::lock_guard lock(mutex_);
+  if (!collection_ || !sample.pose())
+  {
+    return;
+  }
+  for (const auto& [name, track] : { std::pair{ collection_->markerToTracker, &collection_->marker },
+         std::pair{ collection_->stylusToTracker, &collection_->stylus } })
+  {
+    if (sample.name == name)
+    {
+      track->add(sample.timeSec, sample.pose()->transform, sample.pose()->isValid);
+    }
+  }
+}
+
+void LatencyTask::onFrame(const devices::PairedFrame& frame, const std::optional<BallDetection>& ball)
+{
+  bool isDone = false;
+  double share = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!collection_)
+    {
+      return;
+    }
+    const double timeSec = frame.image.timeSec;
+    collection_->beginSec = collection_->beginSec < 0 ? timeSec : collection_->beginSec;
+    if (ball && ball->isFound() && ball->distanceMm > 0)
+    {
+      collection_->sightings.push_back({ timeSec, ball->ray_Camera, ball->distanceMm });
+    }
+    share = std::clamp((timeSec - collection_->beginSec) / collection_->seconds, 0.0, 1.0);
+    isDone = share >= 1;
+  }
+  QMetaObject::invokeMethod(
+    this, [this, share] { emit progressed(share); }, Qt::QueuedConnection);
+  if (isDone)
+  {
+    evaluate();
+  }
+}
+
+/// In the work's thread.
+void LatencyTask::evaluate()
+{
+  std::optional<Collection> collection;
+  {
+    const std::lock_guard lock(mutex_);
+    collection = std::exchange(collection_, std::nullopt);
+  }
+  TemporalCalibrationResult result;
+  try
+  {
+    result = calibrateLatency(collection->sightings, collection->marker, collection->stylus, tip_Stylus_, *camera_);
+  }
+  catch (const std::exception& error)
+  {
+    result.message = error.what();
+  }
+  QMetaObject::invokeMethod(
+    this,
+    [this, result]
+    {
+      isRunning_ = false;
+      emit runningChanged();
+      if (result.isUsable())
+      {
+        emit measured(result);
+      }
+      else
+      {
+        emit refused(QString::fromStdString(result.message));
+      }
+    },
+    Qt::QueuedConnection);
+}
+
+}  // namespace handeye

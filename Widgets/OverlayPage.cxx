@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OverlayPage.h"
+
+#include "LandmarkPanel.h"
+#include "ui_OverlayPage.h"
+
+#include <QFileDialog>
+#include <QFileInfo>
+
+namespace handeye
+{
+
+OverlayPage::OverlayPage(HandEyeWorkbench& workbench, QWidget* parent)
+  : WizardPage(workbench, WizardStep::Overlay, parent)
+  , ui_(std::make_unique<Ui::OverlayPage>())
+{
+  ui_->setupUi(this);
+  connect(ui_->ownModelButton, &QPushButton::clicked, this,
+    [this]
+    {
+      workbench_.loadModel(HandEyeWorkbench::ownModel());
+      ui_->landmarks->loadModelLandmarks(HandEyeWorkbench::ownLandmarks());
+    });
+  connect(ui_->loadModelButton, &QPushButton::clicked, this,
+    [this]
+    {
+      const QString path =
+        QFileDialog::getOpenFileName(this, tr("Model"), {}, tr("Meshes (*.stl *.ply *.obj *.vtp *.vtk);;All files (*)"));
+      if (!path.isEmpty())
+      {
+        workbench_.loadModel(path);
+      }
+    });
+  connect(ui_->opacitySlider, &QSlider::valueChanged, this, &OverlayPage::opacityChanged);
+  connect(ui_->landmarks, &LandmarkPanel::touchRequested, this, &OverlayPage::takeTip);
+  connect(ui_->landmarks, &LandmarkPanel::pairsChanged, this,
+    [this]
+    {
+      const LandmarkPanel::Pairs pairs = ui_->landmarks->pairs();
+      if (pairs.landmarks.size() < 3)
+      {
+        ui_->landmarks->setResult({});
+        return;
+      }
+      workbench_.registerLandmarks(pairs.points_Model, pairs.points_Phantom);
+    });
+  connect(ui_->landmarks, &LandmarkPanel::loadRequested, &workbench_, &HandEyeWorkbench::loadRegistration);
+  connect(ui_->landmarks, &LandmarkPanel::saveRequested, &workbench_, &HandEyeWorkbench::saveRegistration);
+  connect(&workbench_, &HandEyeWorkbench::registrationChanged, this, &OverlayPage::showRegistration);
+  connect(&workbench_.live(), &LivePipeline::shown, this, &OverlayPage::followTip);
+}
+
+OverlayPage::~OverlayPage() = default;
+
+void OverlayPage::enter()
+{
+  if (!workbench_.model() && !HandEyeWorkbench::ownModel().isEmpty())
+  {
+    workbench_.loadModel(HandEyeWorkbench::ownModel());
+  }
+  if (ui_->landmarks->landmarks().isEmpty() && !HandEyeWorkbench::ownLandmarks().isEmpty())
+  {
+    ui_->landmarks->loadModelLandmarks(HandEyeWorkbench::ownLandmarks());
+  }
+}
+
+double OverlayPage::opacity() const
+{
+  return ui_->opacitySlider->value() / 100.0;
+}
+
+void OverlayPage::setOverlayProblem(const QString& problem)
+{
+  ui_->overlayLabel->setText(problem.isEmpty() ? tr("The model is drawn where the calibration puts it.") : problem);
+}
+
+void OverlayPage::followTip()
+{
+  const std::shared_ptr<const LiveView> view = workbench_.live().newest();
+  if (!isVisible() || !view)
+  {
+    return;
+  }
+  const DeviceSetup& setup = workbench_.devices().setup();
+  const std::optional<HandEyeWorkbench::Stylus>& stylus = workbench_.stylus();
+  touch_.reset(stylus ? std::optional<Eigen::Vector3d>(stylus->tip_Stylus) : std::nullopt, setup.stylusToTracker.toStdString(),
+    setup.phantomToTracker.toStdString());
+  touch_.add(view->frame);
+  ui_->landmarks->setTipAvailable(touch_.tip_Phantom().has_value(), touch_.problem());
+  if (const std::optional<Eigen::Vector3d> rest_Phantom = touch_.rest_Phantom())
+  {
+    ui_->landmarks->offerTip(*rest_Phantom);
+  }
+}
+
+void OverlayPage::takeTip()
+{
+  const std::optional<Eigen::Vector3d> rest_Phantom = touch_.rest_Phantom();
+  if (rest_Phantom || touch_.tip_Phantom())
+  {
+    ui_->landmarks->setTouched(rest_Phantom ? *rest_Phantom : *touch_.tip_Phantom());
+  }
+}
+
+void OverlayPage::showRegistration()
+{
+  const std::optional<LandmarkRegistrationResult>& result = workbench_.registration();
+  const int pairCount = ui_->landmarks->pairs().landmarks.size();
+  if (!result || int(result->residualsMm.size()) == pairCount || !result->isUsable())
+  {
+    ui_->landmarks->setResult(result);
+  }
+}
+
+void OverlayPage::refresh()
+{
+  ui_->modelLabel->setText(workbench_.model() ? QFileInfo(workbench_.modelPath()).fileName() : tr("none"));
+  ui_->modelLabel->setToolTip(workbench_.modelPath());
+}
+
+}  // namespace handeye

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SampleRows.h"
+
+#include <QCoreApplication>
+
+#include <map>
+
+namespace handeye
+{
+
+namespace
+{
+
+QString words(const char* text)
+{
+  return QCoreApplication::translate("handeye::SampleRows", text);
+}
+
+SampleRow rowOf(const CaptureSample& sample)
+{
+  SampleRow row;
+  row.id = sample.id;
+  row.thumbnail = sample.thumbnail;
+  row.excluded = sample.isExcluded;
+  const CapturedFrame& captured = sample.captured;
+  row.status = captured.isSample() ? words("not used yet") : QString::fromStdString(captured.message);
+  row.level = captured.isSample() ? Level::Info : Level::Warning;
+  if (captured.ball.isFound())
+  {
+    row.distanceMm = captured.ball.distanceMm;
+  }
+  if (sample.isExcluded)
+  {
+    row.status = words("excluded");
+    row.level = Level::Info;
+  }
+  return row;
+}
+
+}  // namespace
+
+QVector<SampleRow> calibrationRows(const QMap<int, CaptureSample>& samples, const std::optional<CalibrationStepResult>& calibration)
+{
+  std::map<int, const CalibratedFrame*> frames;
+  if (calibration)
+  {
+    for (const CalibratedFrame& frame : calibration->frames)
+    {
+      frames[frame.captured.frame] = &frame;
+    }
+  }
+  QVector<SampleRow> rows;
+  for (const CaptureSample& sample : samples)
+  {
+    if (sample.isDeleted)
+    {
+      continue;
+    }
+    SampleRow row = rowOf(sample);
+    const auto found = frames.find(sample.id);
+    if (found != frames.end() && sample.takesPart() && calibration->isUsable() && sample.captured.isSample())
+    {
+      const CalibratedFrame& frame = *found->second;
+      row.used = frame.used;
+      row.status = frame.used ? words("ok") : words("disagrees with the others");
+      row.level = frame.used ? Level::Good : Level::Error;
+      row.residualPx = frame.residualPx;
+      row.residualMm = frame.residualMm;
+      row.residualLevel = frame.used ? Level::Info : Level::Error;
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+QVector<SampleRow> validationRows(const QMap<int, CaptureSample>& samples, const std::optional<ValidationStepResult>& validation)
+{
+  std::map<int, const ValidatedFrame*> frames;
+  if (validation)
+  {
+    for (const ValidatedFrame& frame : validation->frames)
+    {
+      frames[frame.captured.frame] = &frame;
+    }
+  }
+  QVector<SampleRow> rows;
+  for (const CaptureSample& sample : samples)
+  {
+    SampleRow row = rowOf(sample);
+    const auto found = frames.find(sample.id);
+    if (found != frames.end() && found->second->validated && found->second->status == "ok")
+    {
+      row.used = true;
+      row.status = words("ok");
+      row.level = Level::Good;
+      row.residualPx = found->second->validated->errorPx;
+      row.distanceMm = found->second->validated->distanceMm;
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace handeye

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "WizardPage.h"
+
+#include <memory>
+
+namespace Ui
+{
+class StylusPage;
+}
+
+namespace handeye
+{
+
+/// The stylus' tip: pivoted live, with the dome of directions filling, or from a recording or a file.
+class StylusPage : public WizardPage
+{
+  Q_OBJECT
+
+public:
+  explicit StylusPage(HandEyeWorkbench& workbench, QWidget* parent = nullptr);
+  ~StylusPage() override;
+
+  void leave() override;
+  void refresh() override;
+
+private:
+  void showProgress();
+
+  std::unique_ptr<Ui::StylusPage> ui_;
+};
+
+}  // namespace handeye

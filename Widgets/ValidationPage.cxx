@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ValidationPage.h"
+
+#include "ErrorDistancePlot.h"
+#include "SampleRows.h"
+#include "StatisticsTable.h"
+#include "ui_ValidationPage.h"
+
+#include <QFileDialog>
+
+namespace handeye
+{
+
+namespace
+{
+
+ErrorSeries seriesOf(const ValidationStepResult& validation)
+{
+  ErrorSeries series;
+  series.name = ValidationPage::tr("validation");
+  series.errorPx = validation.projectionErrorPx;
+  for (const ValidatedFrame& frame : validation.frames)
+  {
+    if (frame.validated && frame.status == "ok")
+    {
+      series.points.push_back(QPointF(frame.validated->distanceMm, frame.validated->errorPx));
+    }
+  }
+  return series;
+}
+
+}  // namespace
+
+ValidationPage::ValidationPage(HandEyeWorkbench& workbench, QWidget* parent)
+  : WizardPage(workbench, WizardStep::Validation, parent)
+  , ui_(std::make_unique<Ui::ValidationPage>())
+{
+  ui_->setupUi(this);
+  CaptureTask& capture = workbench_.validationCapture();
+  ui_->handsFreeBox->setChecked(true);
+  ui_->table->setEditable(false);
+  ui_->table->setResidualTitle(tr("Error"));
+  connect(ui_->handsFreeBox, &QCheckBox::toggled, &capture, &CaptureTask::setHandsFree);
+  connect(ui_->takeButton, &QPushButton::clicked, &capture, &CaptureTask::takeNow);
+  connect(ui_->recordingButton, &QPushButton::clicked, this,
+    [this]
+    {
+      const QString path = QFileDialog::getOpenFileName(
+        this, tr("Recording to validate on"), {}, tr("Sequence metafiles (*.mha *.igs.mha);;All files (*)"));
+      if (!path.isEmpty())
+      {
+        workbench_.validationCapture().importRecording(path);
+      }
+    });
+  connect(&capture, &CaptureTask::hintChanged, this, [this] { ui_->hintLabel->setText(workbench_.validationCapture().hint()); });
+  connect(&capture, &CaptureTask::accepted, this, [this](int id) { ui_->hintLabel->setText(tr("Sample %1 is stored.").arg(id)); });
+  connect(&workbench_, &HandEyeWorkbench::validationChanged, this, &ValidationPage::showValidation);
+}
+
+ValidationPage::~ValidationPage() = default;
+
+void ValidationPage::enter()
+{
+  workbench_.validationCapture().setHandsFree(ui_->handsFreeBox->isChecked() && workbench_.missingFor(step()).isEmpty());
+  showValidation();
+}
+
+bool ValidationPage::keyInVideo(int key)
+{
+  if (key == Qt::Key_Space)
+  {
+    workbench_.validationCapture().takeNow();
+    return true;
+  }
+  return false;
+}
+
+void ValidationPage::showValidation()
+{
+  const std::optional<ValidationStepResult>& validation = workbench_.validation();
+  const QVector<ErrorSeries> series = validation ? QVector<ErrorSeries>{ seriesOf(*validation) } : QVector<ErrorSeries>();
+  ui_->plot->setSeries(series);
+  ui_->statistics->setSeries(series);
+  ui_->table->setRows(validationRows(workbench_.validationCapture().samples(), validation));
+  ui_->verdictLabel->setText(validation ? QString::fromStdString(validation->message) : tr("No placements to test on yet."));
+}
+
+void ValidationPage::refresh()
+{
+  const bool isReady = workbench_.missingFor(WizardStep::Validation).isEmpty();
+  const bool isLive = workbench_.devices().isConnected();
+  ui_->handsFreeBox->setEnabled(isReady && isLive);
+  ui_->takeButton->setEnabled(isReady && isLive);
+  ui_->recordingButton->setEnabled(isReady && !workbench_.validationCapture().isBusy());
+}
+
+}  // namespace handeye

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VideoPresenter.h"
+
+#include "EigenVtk.h"
+#include "SphereCone.h"
+#include "vtkHandEyeOverlayPipeline.h"
+
+#include <QTimer>
+#include <vtkMatrix4x4.h>
+
+#include <cmath>
+
+namespace handeye
+{
+
+namespace
+{
+
+constexpr int OutlinePoints = 64;
+
+QPointF toPoint(const Eigen::Vector2d& point_Image)
+{
+  return { point_Image.x(), point_Image.y() };
+}
+
+/// The outline that a ball has in the image; empty where it is not seen.
+QPolygonF outlineOf(const Eigen::Vector3d& ball_Camera, double radiusMm, const CameraModel& camera)
+{
+  QPolygonF polygon;
+  const double distanceMm = ball_Camera.norm();
+  if (distanceMm > radiusMm)
+  {
+    const SphereCone cone{ ball_Camera / distanceMm, std::asin(radiusMm / distanceMm) };
+    for (const Eigen::Vector2d& point_Image : cone.outline(camera, OutlinePoints).points_Image)
+    {
+      polygon << toPoint(point_Image);
+    }
+  }
+  return polygon;
+}
+
+}  // namespace
+
+VideoPresenter::VideoPresenter(HandEyeWorkbench& workbench, VideoView& view, QObject* parent)
+  : QObject(parent)
+  , workbench_(workbench)
+  , view_(view)
+{
+  connect(&workbench_.live(), &LivePipeline::shown, this, &VideoPresenter::showFrame);
+  connect(&workbench_, &HandEyeWorkbench::cameraChanged, this, &VideoPresenter::setLens);
+  connect(&workbench_, &HandEyeWorkbench::calibrationChanged, this, &VideoPresenter::showGhost);
+  connect(&workbench_, &HandEyeWorkbench::stepEntered, this, &VideoPresenter::showGhost);
+  connect(&workbench_, &HandEyeWorkbench::modelChanged, this,
+    [this]
+    {
+      view_.pipeline()->SetModel(workbench_.model());
+      view_.requestRender();
+    });
+  connect(&workbench_.capture(), &CaptureTask::accepted, &view_, &VideoView::flash);
+  connect(&workbench_.validationCapture(), &CaptureTask::accepted, &view_, &VideoView::flash);
+  view_.setPlaceholderText(tr("No video. Connect devices on the page Devices."));
+  view_.pipeline()->SetModelVisible(false);
+  setLens();
+}
+
+void VideoPresenter::setLens()
+{
+  if (workbench_.camera())
+  {
+    view_.pipeline()->SetCameraModel(workbench_.camera()->file.camera);
+    hasLens_ = true;
+    view_.requestRender();
+  }
+}
+
+void VideoPresenter::setOpacity(double opacity)
+{
+  opacity_ = opacity;
+  view_.pipeline()->SetModelOpacity(opacity);
+  view_.requestRender();
+}
+
+void VideoPresenter::showFrame()
+{
+  const std::shared_ptr<const LiveView> shown = workbench_.live().newest();
+  if (!shown)
+  {
+    view_.setFrame({});
+    view_.setDetection({});
+    return;
+  }
+  // Where drawing is slow (OpenGL in software), at least half of the time is left to everything else.
+  if (sinceShown_.isValid() && sinceShown_.elapsed() < 2 * costMs_)
+  {
+    return;
+  }
+  sinceShown_.start();
+  QTimer::singleShot(0, this, [this] { costMs_ = sinceShown_.elapsed(); });
+  try
+  {
+    view_.setFrame(shown->image());
+  }
+  catch (const std::invalid_argument& error)
+  {
+    view_.setBanner(QString::fromUtf8(error.what()), Level::Error);
+    return;
+  }
+  view_.setBanner(shown->problem, Level::Error);
+  showBall(*shown);
+  showModel(*shown);
+}
+
+void VideoPresenter::showBall(const LiveView& shown)
+{
+  if (!shown.ball)
+  {
+    view_.setDetection({});
+    return;
+  }
+  VideoView::DetectionMark mark;
+  const BallDetection& ball = *shown.ball;
+  mark.level = ball.isFound() ? Level::Good : Level::Warning;
+  if (ball.isFound() && workbench_.camera())
+  {
+    mark.ball_Image_Px = toPoint(ball.ball_Image);
+    mark.outline_Image_Px =
+      outlineOf(ball.ray_Camera * ball.distanceMm, workbench_.ball().radiusMm, workbench_.camera()->file.camera);
+    view_.setDetection(mark);
+    return;
+  }
+  view_.setDetection({});
+  if (shown.problem.isEmpty())
+  {
+    view_.setBanner(QString::fromStdString(ball.message), Level::Warning);
+  }
+}
+
+void VideoPresenter::showGhost()
+{
+  const std::optional<CalibrationStepResult>& calibration = workbench_.calibration();
+  const bool isWanted = workbench_.step() == WizardStep::Capture && calibration && calibration->guidance &&
+    calibration->guidance->status != HandEyeGuidance::Status::NoPlace && workbench_.camera();
+  if (!isWanted)
+  {
+    view_.setGhostBall({});
+    return;
+  }
+  VideoView::GhostBall ghost;
+  ghost.outline_Image_Px =
+    outlineOf(calibration->guidance->ball_Camera, workbench_.ball().radiusMm, workbench_.camera()->file.camera);
+  ghost.hint = tr("next: %1 mm away").arg(calibration->guidance->ball_Camera.norm(), 0, 'f', 0);
+  view_.setGhostBall(ghost);
+}
+
+void VideoPresenter::showModel(const LiveView& shown)
+{
+  const bool isWanted = (workbench_.step() == WizardStep::Overlay || workbench_.step() == WizardStep::Finish) && workbench_.model();
+  if (!isWanted)
+  {
+    view_.pipeline()->SetModelVisible(false);
+    return;
+  }
+  QString reason;
+  const std::optional<Eigen::Isometry3d> modelToCamera = workbench_.modelToCamera(shown.frame, reason);
+  if (modelToCamera)
+  {
+    view_.pipeline()->SetModelToCamera(toVtk(*modelToCamera));
+    view_.pipeline()->SetModelOpacity(opacity_);
+    reason = QString::fromStdString(view_.pipeline()->GetProblem());
+  }
+  view_.pipeline()->SetModelVisible(modelToCamera.has_value());
+  emit overlayProblemChanged(reason);
+}
+
+}  // namespace handeye
