@@ -84,7 +84,7 @@ void StreamList::Private::showRow(int row, const Stream& stream) const
     stream.rateHz > 0 ? QLocale().toString(stream.rateHz, 'f', 1) : QString(QChar(0x2013)), ageText(stream.ageSec),
     stream.message };
   QStringList about = { stream.name, stream.source.isEmpty() ? QString() : StreamList::tr("from %1").arg(stream.source),
-    StreamList::lightWord(stream.light), stream.message };
+    typeWord(stream.type), StreamList::lightWord(stream.light), stream.message };
   about.removeAll(QString());
   for (int column = 0; column < ColumnCount; ++column)
   {
@@ -194,7 +194,8 @@ StreamList::StreamList(QWidget* parent)
     box->setToolTip(uses[role]);
     box->setAccessibleName(QString(titles[role]).remove(QLatin1Char('&')));
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    box->setMinimumContentsLength(18);
+    box->setMinimumContentsLength(8);
+    box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     d->boxes[std::size_t(role)] = box;
     form->addRow(titles[role], box);
     d->fill(Role(role));
@@ -243,6 +244,18 @@ void StreamList::setChoice(Role role, const QString& name)
 QComboBox* StreamList::choiceBox(Role role) const
 {
   return d->boxes[std::size_t(role)];
+}
+
+QSize StreamList::minimumSizeHint() const
+{
+  return { 260, QWidget::minimumSizeHint().height() };
+}
+
+void StreamList::resizeEvent(QResizeEvent* event)
+{
+  QWidget::resizeEvent(event);
+  // In a narrow panel the message is worth more than the type, which the tooltip says too.
+  d->table->setColumnHidden(TypeColumn, this->width() < 28 * this->fontMetrics().averageCharWidth() + 260);
 }
 
 QIcon StreamList::lightIcon(Light light)
