@@ -47,6 +47,7 @@ public:
   void addFormats();
   void arrangeFormats();
   void updateButtons();
+  void list(const QString& html);
   void showMessage(const QString& text, Level level);
   bool exportOne(const ExportFormat& format, const QDir& target, QStringList& problems, QStringList& warnings);
   bool hasCalibration() const { return !sources.calibration.empty(); }
@@ -57,6 +58,9 @@ public:
   std::vector<QCheckBox*> boxes;  ///< one per exportFormats()
   ExportSources sources;
   QStringList written;
+  QStringList listed;  ///< HTML, one item each
+  QString message;
+  Level messageLevel = Level::Info;
   bool reportEnabled = false;
   int columns = 0;
 };
@@ -111,6 +115,12 @@ void ExportPanel::Private::updateButtons()
   ui.reportButton->setEnabled(reportEnabled && !this->folder().isEmpty());
 }
 
+void ExportPanel::Private::list(const QString& html)
+{
+  listed += html;
+  ui.writtenBrowser->append(html);
+}
+
 void ExportPanel::Private::showMessage(const QString& text, Level level)
 {
   const int side = q.fontMetrics().height() + 2;
@@ -118,8 +128,11 @@ void ExportPanel::Private::showMessage(const QString& text, Level level)
   ui.messageLabel->setVisible(!text.isEmpty());
   ui.messageIcon->setPixmap(levelIcon(level).pixmap(q.window()->windowHandle(), QSize(side, side)));
   ui.messageLabel->setText(text);
-  QPalette palette = q.palette();
-  palette.setColor(QPalette::WindowText, levelColor(level, palette));
+  message = text;
+  messageLevel = level;
+  // Of the palette only this role: the rest follows the application's.
+  QPalette palette;
+  palette.setColor(QPalette::WindowText, levelColor(level, q.palette()));
   ui.messageLabel->setPalette(palette);
 }
 
@@ -182,6 +195,7 @@ ExportPanel::ExportPanel(QWidget* parent)
     });
   connect(d->ui.noneButton, &QPushButton::clicked, this, [this] { this->setFormats({}); });
   connect(d->ui.writtenBrowser, &QTextBrowser::anchorClicked, this, [](const QUrl& link) { QDesktopServices::openUrl(link); });
+  d->ui.writtenBrowser->setPlaceholderText(tr("Files that were written are listed here."));
   this->setReportEnabled(false);
   this->setSources({});
 }
@@ -192,6 +206,21 @@ void ExportPanel::resizeEvent(QResizeEvent* event)
 {
   QWidget::resizeEvent(event);
   d->arrangeFormats();
+}
+
+void ExportPanel::changeEvent(QEvent* event)
+{
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange && d->columns > 0)
+  {
+    // Links keep the colour that they were written with.
+    d->ui.writtenBrowser->clear();
+    for (const QString& html : d->listed)
+    {
+      d->ui.writtenBrowser->append(html);
+    }
+    d->showMessage(d->message, d->messageLevel);
+  }
 }
 
 void ExportPanel::setSources(const ExportSources& sources)
@@ -256,7 +285,7 @@ void ExportPanel::setReportEnabled(bool enabled, const QString& reason)
 void ExportPanel::addWrittenFile(const QString& path, const QString& what)
 {
   d->written += path;
-  d->ui.writtenBrowser->append(listItem(path, what));
+  d->list(listItem(path, what));
 }
 
 void ExportPanel::showError(const QString& sentence)
@@ -267,6 +296,7 @@ void ExportPanel::showError(const QString& sentence)
 bool ExportPanel::exportNow()
 {
   d->written.clear();
+  d->listed.clear();
   d->ui.writtenBrowser->clear();
   const QDir target(this->folder());
   if (!d->hasCalibration())
@@ -306,7 +336,7 @@ bool ExportPanel::exportNow()
     {
       notes += QStringLiteral("<br>• ") + warning.toHtmlEscaped();
     }
-    d->ui.writtenBrowser->append(QStringLiteral("<p style=\"margin-top:8px\">%1</p>").arg(notes));
+    d->list(QStringLiteral("<p style=\"margin-top:8px\">%1</p>").arg(notes));
   }
   d->ui.writtenBrowser->moveCursor(QTextCursor::Start);
   emit exported(d->written);

@@ -53,6 +53,7 @@ signals:
   void reportRequested(QString folder);
 
 protected:
+  void changeEvent(QEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
 private:

@@ -26,6 +26,15 @@ LandmarkPanel::~LandmarkPanel()
   d->ui.table->disconnect(this);
 }
 
+void LandmarkPanel::changeEvent(QEvent* event)
+{
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange && d->ui.verdictLabel)
+  {
+    d->updateVerdict();
+  }
+}
+
 bool LandmarkPanel::loadModelLandmarks(const QString& path)
 {
   try

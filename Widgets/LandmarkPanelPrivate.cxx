@@ -37,6 +37,7 @@ void LandmarkPanel::Private::setUpUi()
 {
   ui.setupUi(&q);
   ui.table->setColumnCount(ColumnCount);
+  ui.table->setWordWrap(false);
   QHeaderView* header = ui.table->horizontalHeader();
   header->setSectionResizeMode(QHeaderView::ResizeToContents);
   header->setSectionResizeMode(NameColumn, QHeaderView::Stretch);
@@ -234,8 +235,9 @@ void LandmarkPanel::Private::showVerdict(const QString& text, Level level)
   const int side = q.fontMetrics().height() + 2;
   ui.verdictIcon->setPixmap(levelIcon(level).pixmap(q.window()->windowHandle(), QSize(side, side)));
   ui.verdictLabel->setText(text);
-  QPalette palette = q.palette();
-  palette.setColor(QPalette::WindowText, levelColor(level, palette));
+  // Of the palette only this role: the rest follows the application's.
+  QPalette palette;
+  palette.setColor(QPalette::WindowText, levelColor(level, q.palette()));
   ui.verdictLabel->setPalette(palette);
 }
 

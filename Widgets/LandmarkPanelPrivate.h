@@ -36,7 +36,7 @@ public:
   void changed();
 
   LandmarkPanel& q;
-  Ui::LandmarkPanel ui;
+  Ui::LandmarkPanel ui{};
   QVector<Landmark> landmarks;
   int current = -1;
   bool tipAvailable = false;

@@ -80,6 +80,7 @@ public:
   void setUpView();
   void setUpActions();
   void updateActions();
+  void adjustStatusColumn();
   void requestExclusion(const QVector<int>& ids, bool excluded);
 
   SampleTable& q;
@@ -192,6 +193,28 @@ void SampleTable::Private::requestExclusion(const QVector<int>& ids, bool exclud
     [this, ids, excluded] { emit q.excludeRequested(ids, !excluded); }));
 }
 
+/// In a narrow panel the status keeps the room for some words, and the table scrolls.
+void SampleTable::Private::adjustStatusColumn()
+{
+  const int words = 20 * q.fontMetrics().averageCharWidth();
+  QHeaderView* header = view->horizontalHeader();
+  int others = 0;
+  for (int column = 0; column < SampleTableModel::ColumnCount; ++column)
+  {
+    others += column == SampleTableModel::Status ? 0 : header->sectionSize(column);
+  }
+  const bool isNarrow = view->viewport()->width() - others < words;
+  const QHeaderView::ResizeMode mode = isNarrow ? QHeaderView::Fixed : QHeaderView::Stretch;
+  if (header->sectionResizeMode(SampleTableModel::Status) != mode)
+  {
+    header->setSectionResizeMode(SampleTableModel::Status, mode);
+  }
+  if (isNarrow && header->sectionSize(SampleTableModel::Status) != words)
+  {
+    header->resizeSection(SampleTableModel::Status, words);
+  }
+}
+
 SampleTable::SampleTable(QWidget* parent)
   : QWidget(parent)
   , d(std::make_unique<Private>(*this))
@@ -214,6 +237,14 @@ SampleTable::SampleTable(QWidget* parent)
 
   connect(d->model, &SampleTableModel::excludeRequested, this,
     [this](const QVector<int>& ids, bool excluded) { d->requestExclusion(ids, excluded); });
+  connect(d->view->horizontalHeader(), &QHeaderView::sectionResized, this,
+    [this](int column)
+    {
+      if (column != SampleTableModel::Status)
+      {
+        d->adjustStatusColumn();
+      }
+    });
   connect(d->stack, &QUndoStack::indexChanged, this, [this] { d->updateActions(); });
   connect(d->view->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] { d->updateActions(); });
   connect(d->view->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
@@ -240,6 +271,7 @@ SampleTable::~SampleTable()
   d->stack->disconnect(this);
   d->view->selectionModel()->disconnect(this);
   d->view->disconnect(this);
+  d->view->horizontalHeader()->disconnect(this);
 }
 
 void SampleTable::setRows(const QVector<SampleRow>& rows)
@@ -364,20 +396,7 @@ QSize SampleTable::minimumSizeHint() const
 void SampleTable::resizeEvent(QResizeEvent* event)
 {
   QWidget::resizeEvent(event);
-  // In a narrow panel the status keeps the room for some words, and the table scrolls.
-  const int words = 20 * this->fontMetrics().averageCharWidth();
-  QHeaderView* header = d->view->horizontalHeader();
-  int others = 0;
-  for (int column = 0; column < SampleTableModel::ColumnCount; ++column)
-  {
-    others += column == SampleTableModel::Status ? 0 : header->sectionSize(column);
-  }
-  const bool isNarrow = d->view->viewport()->width() - others < words;
-  header->setSectionResizeMode(SampleTableModel::Status, isNarrow ? QHeaderView::Fixed : QHeaderView::Stretch);
-  if (isNarrow)
-  {
-    header->resizeSection(SampleTableModel::Status, words);
-  }
+  d->adjustStatusColumn();
 }
 
 void SampleTable::changeEvent(QEvent* event)

@@ -172,6 +172,7 @@ void StreamList::Private::setUpTable(StreamList& list)
   table->setSelectionBehavior(QAbstractItemView::SelectRows);
   table->setTabKeyNavigation(false);
   table->setShowGrid(false);
+  table->setWordWrap(false);
   table->setAlternatingRowColors(true);
   table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table->horizontalHeader()->setSectionResizeMode(MessageColumn, QHeaderView::Stretch);
