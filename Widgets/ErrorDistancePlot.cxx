@@ -15,6 +15,7 @@
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkAxis.h>
 #include <vtkBrush.h>
+#include <vtkCallbackCommand.h>
 #include <vtkChartXY.h>
 #include <vtkColor.h>
 #include <vtkContextScene.h>
@@ -143,7 +144,16 @@ public:
   QWidget* page = nullptr;
   QLabel* nothing = nullptr;
   QVTKOpenGLNativeWidget* gl = nullptr;
+  /// A margin: VTK lets the letters of the axes touch the borders, or be cut off by them.
+  void fitChart()
+  {
+    const int* size = window->GetSize();
+    const float margin = 4.0F * float(window->GetDPI()) / 72;
+    chart->SetSize(vtkRectf(margin, 1.5F * margin, float(size[0]) - 2 * margin, float(size[1]) - 2 * margin));
+  }
+
   QTimer renderTimer;
+  vtkNew<vtkCallbackCommand> beforeRendering;
   vtkNew<vtkGenericOpenGLRenderWindow> window;
   vtkNew<vtkContextView> view;
   vtkNew<vtkChartXY> chart;
@@ -185,6 +195,10 @@ ErrorDistancePlot::ErrorDistancePlot(QWidget* parent)
     d->chart->SetActionToButton(action, -1);
   }
   d->chart->SetHiddenAxisBorder(0);
+  d->chart->SetAutoSize(false);
+  d->beforeRendering->SetClientData(d.get());
+  d->beforeRendering->SetCallback([](vtkObject*, unsigned long, void* self, void*) { static_cast<Private*>(self)->fitChart(); });
+  d->window->AddObserver(vtkCommand::StartEvent, d->beforeRendering);
   d->renderTimer.setSingleShot(true);
   d->renderTimer.setInterval(0);
   connect(&d->renderTimer, &QTimer::timeout, this,
@@ -197,7 +211,10 @@ ErrorDistancePlot::ErrorDistancePlot(QWidget* parent)
     });
 }
 
-ErrorDistancePlot::~ErrorDistancePlot() = default;
+ErrorDistancePlot::~ErrorDistancePlot()
+{
+  d->window->RemoveObserver(d->beforeRendering);
+}
 
 void ErrorDistancePlot::setSeries(const QVector<ErrorSeries>& series)
 {

@@ -13,6 +13,7 @@
 #include <QFileInfo>
 #include <QUrl>
 
+#include <algorithm>
 #include <vector>
 
 namespace handeye
@@ -44,7 +45,9 @@ public:
   }
 
   void addFormats();
+  void arrangeFormats();
   void updateButtons();
+  void list(const QString& html);
   void showMessage(const QString& text, Level level);
   bool exportOne(const ExportFormat& format, const QDir& target, QStringList& problems, QStringList& warnings);
   bool hasCalibration() const { return !sources.calibration.empty(); }
@@ -55,12 +58,15 @@ public:
   std::vector<QCheckBox*> boxes;  ///< one per exportFormats()
   ExportSources sources;
   QStringList written;
+  QStringList listed;  ///< HTML, one item each
+  QString message;
+  Level messageLevel = Level::Info;
   bool reportEnabled = false;
+  int columns = 0;
 };
 
 void ExportPanel::Private::addFormats()
 {
-  int index = 0;
   for (const ExportFormat& format : exportFormats())
   {
     // Names of programs and formats are not translated.
@@ -68,11 +74,38 @@ void ExportPanel::Private::addFormats()
     box->setToolTip(ExportPanel::tr("Writes %1").arg(QString::fromStdString(format.fileName)) +
       (format.isOneCamera ? QString() : ExportPanel::tr("; with the stylus, the phantom and both eyes where they are known")));
     box->setChecked(true);
-    ui.formatsLayout->addWidget(box, index / 2, index % 2);
+    // The columns follow from the width, not the other way round.
+    box->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     connect(box, &QCheckBox::toggled, &q, [this] { this->updateButtons(); });
     boxes.push_back(box);
-    ++index;
   }
+  this->arrangeFormats();
+}
+
+/// In two columns where they have room, else in one.
+void ExportPanel::Private::arrangeFormats()
+{
+  int widest = 0;
+  for (const QCheckBox* box : boxes)
+  {
+    widest = std::max(widest, box->sizeHint().width());
+  }
+  const int wanted = ui.formatsBox->contentsRect().width() >= 2 * widest + 36 ? 2 : 1;
+  if (wanted == columns)
+  {
+    return;
+  }
+  columns = wanted;
+  for (std::size_t index = 0; index < boxes.size(); ++index)
+  {
+    ui.formatsLayout->removeWidget(boxes[index]);
+  }
+  for (std::size_t index = 0; index < boxes.size(); ++index)
+  {
+    ui.formatsLayout->addWidget(boxes[index], int(index) / columns, int(index) % columns);
+  }
+  ui.formatsLayout->setColumnStretch(0, 1);
+  ui.formatsLayout->setColumnStretch(1, columns == 2 ? 1 : 0);
 }
 
 void ExportPanel::Private::updateButtons()
@@ -82,6 +115,12 @@ void ExportPanel::Private::updateButtons()
   ui.reportButton->setEnabled(reportEnabled && !this->folder().isEmpty());
 }
 
+void ExportPanel::Private::list(const QString& html)
+{
+  listed += html;
+  ui.writtenBrowser->append(html);
+}
+
 void ExportPanel::Private::showMessage(const QString& text, Level level)
 {
   const int side = q.fontMetrics().height() + 2;
@@ -89,8 +128,11 @@ void ExportPanel::Private::showMessage(const QString& text, Level level)
   ui.messageLabel->setVisible(!text.isEmpty());
   ui.messageIcon->setPixmap(levelIcon(level).pixmap(q.window()->windowHandle(), QSize(side, side)));
   ui.messageLabel->setText(text);
-  QPalette palette = q.palette();
-  palette.setColor(QPalette::WindowText, levelColor(level, palette));
+  message = text;
+  messageLevel = level;
+  // Of the palette only this role: the rest follows the application's.
+  QPalette palette;
+  palette.setColor(QPalette::WindowText, levelColor(level, q.palette()));
   ui.messageLabel->setPalette(palette);
 }
 
@@ -153,11 +195,33 @@ ExportPanel::ExportPanel(QWidget* parent)
     });
   connect(d->ui.noneButton, &QPushButton::clicked, this, [this] { this->setFormats({}); });
   connect(d->ui.writtenBrowser, &QTextBrowser::anchorClicked, this, [](const QUrl& link) { QDesktopServices::openUrl(link); });
+  d->ui.writtenBrowser->setPlaceholderText(tr("Files that were written are listed here."));
   this->setReportEnabled(false);
   this->setSources({});
 }
 
 ExportPanel::~ExportPanel() = default;
+
+void ExportPanel::resizeEvent(QResizeEvent* event)
+{
+  QWidget::resizeEvent(event);
+  d->arrangeFormats();
+}
+
+void ExportPanel::changeEvent(QEvent* event)
+{
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange && d->columns > 0)
+  {
+    // Links keep the colour that they were written with.
+    d->ui.writtenBrowser->clear();
+    for (const QString& html : d->listed)
+    {
+      d->ui.writtenBrowser->append(html);
+    }
+    d->showMessage(d->message, d->messageLevel);
+  }
+}
 
 void ExportPanel::setSources(const ExportSources& sources)
 {
@@ -221,7 +285,7 @@ void ExportPanel::setReportEnabled(bool enabled, const QString& reason)
 void ExportPanel::addWrittenFile(const QString& path, const QString& what)
 {
   d->written += path;
-  d->ui.writtenBrowser->append(listItem(path, what));
+  d->list(listItem(path, what));
 }
 
 void ExportPanel::showError(const QString& sentence)
@@ -232,6 +296,7 @@ void ExportPanel::showError(const QString& sentence)
 bool ExportPanel::exportNow()
 {
   d->written.clear();
+  d->listed.clear();
   d->ui.writtenBrowser->clear();
   const QDir target(this->folder());
   if (!d->hasCalibration())
@@ -271,7 +336,7 @@ bool ExportPanel::exportNow()
     {
       notes += QStringLiteral("<br>• ") + warning.toHtmlEscaped();
     }
-    d->ui.writtenBrowser->append(QStringLiteral("<p style=\"margin-top:8px\">%1</p>").arg(notes));
+    d->list(QStringLiteral("<p style=\"margin-top:8px\">%1</p>").arg(notes));
   }
   d->ui.writtenBrowser->moveCursor(QTextCursor::Start);
   emit exported(d->written);

@@ -86,6 +86,9 @@ signals:
   void saveRequested(QString path);
   void loadRequested(QString path);
 
+protected:
+  void changeEvent(QEvent* event) override;
+
 private:
   class Private;
   std::unique_ptr<Private> d;

@@ -80,6 +80,7 @@ public:
   void setUpView();
   void setUpActions();
   void updateActions();
+  void adjustStatusColumn();
   void requestExclusion(const QVector<int>& ids, bool excluded);
 
   SampleTable& q;
@@ -172,11 +173,12 @@ void SampleTable::Private::updateActions()
     excludedCount += row.excluded ? 1 : 0;
     usedCount += row.used && !row.excluded ? 1 : 0;
   }
-  QString text = counted(model->rows().size(), SampleTable::tr("1 sample"), SampleTable::tr("%1 samples"));
+  const int total = model->rows().size();
+  QString text = counted(total, SampleTable::tr("1 sample"), SampleTable::tr("%1 samples"));
   if (editable && !model->rows().isEmpty())
   {
-    text += SampleTable::tr(", %1 used").arg(usedCount);
-    text += excludedCount > 0 ? SampleTable::tr(", %1 left out on request").arg(excludedCount) : QString();
+    text = SampleTable::tr("%1 of %2 used").arg(usedCount).arg(total);
+    text += excludedCount > 0 ? SampleTable::tr(", %1 left out").arg(excludedCount) : QString();
   }
   count->setText(text);
 }
@@ -189,6 +191,28 @@ void SampleTable::Private::requestExclusion(const QVector<int>& ids, bool exclud
   stack->push(new Request(
     text, [this, ids, excluded] { emit q.excludeRequested(ids, excluded); },
     [this, ids, excluded] { emit q.excludeRequested(ids, !excluded); }));
+}
+
+/// In a narrow panel the status keeps the room for some words, and the table scrolls.
+void SampleTable::Private::adjustStatusColumn()
+{
+  const int words = 20 * q.fontMetrics().averageCharWidth();
+  QHeaderView* header = view->horizontalHeader();
+  int others = 0;
+  for (int column = 0; column < SampleTableModel::ColumnCount; ++column)
+  {
+    others += column == SampleTableModel::Status ? 0 : header->sectionSize(column);
+  }
+  const bool isNarrow = view->viewport()->width() - others < words;
+  const QHeaderView::ResizeMode mode = isNarrow ? QHeaderView::Fixed : QHeaderView::Stretch;
+  if (header->sectionResizeMode(SampleTableModel::Status) != mode)
+  {
+    header->setSectionResizeMode(SampleTableModel::Status, mode);
+  }
+  if (isNarrow && header->sectionSize(SampleTableModel::Status) != words)
+  {
+    header->resizeSection(SampleTableModel::Status, words);
+  }
 }
 
 SampleTable::SampleTable(QWidget* parent)
@@ -213,6 +237,14 @@ SampleTable::SampleTable(QWidget* parent)
 
   connect(d->model, &SampleTableModel::excludeRequested, this,
     [this](const QVector<int>& ids, bool excluded) { d->requestExclusion(ids, excluded); });
+  connect(d->view->horizontalHeader(), &QHeaderView::sectionResized, this,
+    [this](int column)
+    {
+      if (column != SampleTableModel::Status)
+      {
+        d->adjustStatusColumn();
+      }
+    });
   connect(d->stack, &QUndoStack::indexChanged, this, [this] { d->updateActions(); });
   connect(d->view->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] { d->updateActions(); });
   connect(d->view->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
@@ -239,6 +271,7 @@ SampleTable::~SampleTable()
   d->stack->disconnect(this);
   d->view->selectionModel()->disconnect(this);
   d->view->disconnect(this);
+  d->view->horizontalHeader()->disconnect(this);
 }
 
 void SampleTable::setRows(const QVector<SampleRow>& rows)
@@ -353,6 +386,17 @@ void SampleTable::redo()
   {
     d->stack->redo();
   }
+}
+
+QSize SampleTable::minimumSizeHint() const
+{
+  return { 240, 160 };
+}
+
+void SampleTable::resizeEvent(QResizeEvent* event)
+{
+  QWidget::resizeEvent(event);
+  d->adjustStatusColumn();
 }
 
 void SampleTable::changeEvent(QEvent* event)
