@@ -79,15 +79,15 @@ void WizardScreensTest::fill(HandEyeCalibrationPanel& panel)
   HandEyeWorkbench& workbench = panel.workbench();
   handeye::DeviceSetup setup;
   QVERIFY(workbench.connectDevices(setup));
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.problemOf(WizardStep::Devices).isEmpty(), 10000);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.problemOf(WizardStep::Devices).isEmpty(), PatienceMs);
   panel.goTo(WizardStep::Stylus);
   workbench.pivot().start(setup.stylusToTracker);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.stylus().has_value(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.stylus().has_value(), PatienceMs);
   panel.goTo(WizardStep::Capture);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.capture().samples().size() >= 8, 40000);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.calibration() && workbench.calibration()->isUsable(), 5000);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.capture().samples().size() >= 8, PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.calibration() && workbench.calibration()->isUsable(), PatienceMs);
   panel.goTo(WizardStep::Validation);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count >= 4, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count >= 4, PatienceMs);
 }
 
 void WizardScreensTest::takePictures(HandEyeCalibrationPanel& panel, const QSize& size, const QString& mark)
@@ -104,6 +104,12 @@ void WizardScreensTest::takePictures(HandEyeCalibrationPanel& panel, const QSize
     const QStringList faults = faultsOf(*static_cast<QWidget*>(panel.page(WizardStep(i))));
     QVERIFY2(faults.isEmpty(), qPrintable(QStringLiteral("page %1: %2").arg(i + 1).arg(faults.join(QStringLiteral("; ")))));
     const auto* area = panel.findChild<QScrollArea*>(QStringLiteral("scrollArea"));
+    for (int page = 0; page < handeye::WizardStepCount; ++page)
+    {
+      const QWidget* each = panel.page(WizardStep(page));
+      QVERIFY2(each->minimumSizeHint().width() <= 400,
+        qPrintable(QStringLiteral("page %1 needs %2 px").arg(page + 1).arg(each->minimumSizeHint().width())));
+    }
     QVERIFY2(area->widget()->width() <= area->viewport()->width(), qPrintable(QStringLiteral("page %1 is wider than the panel").arg(i + 1)));
   }
 }
