@@ -190,7 +190,7 @@ void WizardRecordingTest::samples_ExcludeDeleteUndoRedo()
   loadInputs(panel);
   importCapture(panel);
   const int all = workbench.calibration()->calibration.usedCount;
-  auto* table = panel.findChild<handeye::SampleTable*>();
+  auto* table = panel.page(WizardStep::Capture)->findChild<handeye::SampleTable*>();
   const int first = table->rows().first().id;
   const auto taking = [&] { return int(workbench.calibration()->frames.size()); };
   const int count = taking();

@@ -258,7 +258,7 @@ void WizardRefusalsTest::capture_WithTooFewPlaces()
   QTRY_VERIFY_WITH_TIMEOUT(!workbench().capture().isBusy() && workbench().capture().samples().size() > 10, PatienceMs);
   QVector<int> most = QVector<int>::fromList(workbench().capture().samples().keys());
   most.resize(most.size() - 3);
-  emit panel_->findChild<handeye::SampleTable*>()->excludeRequested(most, true);
+  emit panel_->page(WizardStep::Capture)->findChild<handeye::SampleTable*>()->excludeRequested(most, true);
   QTRY_VERIFY2_WITH_TIMEOUT(driver_->reason().contains(QStringLiteral("at least 6")), qPrintable(driver_->reason()), PatienceMs);
   QVERIFY(!driver_->canGoNext());
   panel_->goTo(WizardStep::Validation);
