@@ -2,11 +2,32 @@
 # SPDX-FileCopyrightText: HandEyeCalibration contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Installs what is missing, builds, and runs the main job on the demo capture: pivot, calibrate, validate, register, overlay.
+# Installs what is missing and builds. With a display it opens NavigationDesktop with the module and a simulated operating room; without
+# one, or with --headless, it runs the main job on the demo capture: pivot, calibrate, validate, register, overlay. Other arguments go to
+# NavigationDesktop: ./start.sh --help says which.
 set -euo pipefail
 cd "$(dirname "$0")"
 # shellcheck source=Utilities/set_up.sh
 . Utilities/set_up.sh
+
+headless=
+if [ "${1:-}" = --headless ]; then
+  headless=yes
+  shift
+elif [ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}${QT_QPA_PLATFORM:-}" ]; then
+  headless=yes
+fi
+
+if [ -z "$headless" ]; then
+  set_up NavigationDesktop -DHANDEYE_WARNINGS_AS_ERRORS=
+  desktop=$build_dir/bin/NavigationDesktop
+  # The variables may be set and nothing be there: the program tries it, and is not heard if it fails.
+  if (exec "$desktop" --check-display) >/dev/null 2>&1; then
+    say "Opening NavigationDesktop with a simulated operating room (./start.sh --headless runs the demo without a window)"
+    exec "$desktop" --demo "$@"
+  fi
+  say "The display does not answer: the demo runs without a window"
+fi
 
 set_up handeye -DHANDEYE_WARNINGS_AS_ERRORS=
 handeye=$build_dir/bin/handeye

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ShortcutsDialog.h"
+
+#include <QAction>
+#include <QDialogButtonBox>
+#include <QHeaderView>
+#include <QShortcut>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace desktop
+{
+
+QVector<QPair<QString, QString>> ShortcutsDialog::shortcutsOf(const QWidget* window)
+{
+  QVector<QPair<QString, QString>> shortcuts;
+  const auto add = [&](QString text, const QKeySequence& keys)
+  {
+    text.remove(QLatin1Char('&'));
+    const QPair<QString, QString> entry(text, keys.toString(QKeySequence::NativeText));
+    if (!text.isEmpty() && !keys.isEmpty() && !shortcuts.contains(entry))
+    {
+      shortcuts.append(entry);
+    }
+  };
+  for (const QAction* const action : window->findChildren<QAction*>())
+  {
+    for (const QKeySequence& keys : action->shortcuts())
+    {
+      add(action->text(), keys);
+    }
+  }
+  // A shortcut has no text of its own: a module says in "what's this" what it does.
+  for (const QShortcut* const shortcut : window->findChildren<QShortcut*>())
+  {
+    add(shortcut->whatsThis(), shortcut->key());
+  }
+  std::sort(shortcuts.begin(), shortcuts.end());
+  return shortcuts;
+}
+
+ShortcutsDialog::ShortcutsDialog(QWidget* window)
+  : QDialog(window)
+{
+  this->setWindowTitle(tr("Keyboard shortcuts"));
+  const auto shortcuts = shortcutsOf(window);
+  auto* const table = new QTableWidget(shortcuts.size(), 2);
+  table->setAccessibleName(tr("Keyboard shortcuts"));
+  table->setHorizontalHeaderLabels({ tr("What it does"), tr("Keys") });
+  table->verticalHeader()->hide();
+  table->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
+  table->horizontalHeader()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table->setShowGrid(false);
+  table->setAlternatingRowColors(true);
+  for (int row = 0; row < shortcuts.size(); ++row)
+  {
+    table->setItem(row, 0, new QTableWidgetItem(shortcuts[row].first));
+    table->setItem(row, 1, new QTableWidgetItem(shortcuts[row].second));
+  }
+  auto* const buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* const layout = new QVBoxLayout(this);
+  layout->addWidget(table);
+  layout->addWidget(buttons);
+  this->resize(480, 520);
+}
+
+}  // namespace desktop

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QString>
+
+namespace desktop
+{
+
+/// How the desktop looks: as the system has it, or light, or dark.
+enum class Theme
+{
+  System,
+  Light,
+  Dark
+};
+
+/// Sets style and palette of the application. Widgets get a QEvent::PaletteChange.
+void applyTheme(Theme theme);
+
+/// Whether text is light on dark now.
+bool isDark();
+
+/// "system", "light", "dark", as settings and options have them.
+QString themeName(Theme theme);
+/// System for anything else.
+Theme themeFromName(const QString& name);
+
+}  // namespace desktop

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QString>
+#include <QStringList>
+
+#include <memory>
+
+class vtkMRMLScene;
+class vtkMatrix4x4;
+
+/// What only 3D Slicer has: transform nodes of a scene, as sources and as results. The one place of the module that knows of MRML; outside
+/// Slicer there is none.
+///
+/// A node is known by its name; its matrix is its transform to its parent: for a node "MarkerToCamera", p_Camera = markerToCamera * p_Marker,
+/// mm, in the coordinates that Slicer keeps (RAS).
+class MRMLBridge
+{
+public:
+  virtual ~MRMLBridge() = default;
+
+  /// Null for no scene, and always outside Slicer.
+  static std::unique_ptr<MRMLBridge> create(vtkMRMLScene* scene);
+
+  /// The names of the linear transform nodes, in the order of the scene.
+  virtual QStringList transformNames() const = 0;
+
+  /// The transform to the parent of the node of this name. @return false, and the matrix as it was, if there is no such linear transform
+  virtual bool transformToParent(const QString& name, vtkMatrix4x4* matrix) const = 0;
+
+  /// Sets the node of this name, which is made if there is none.
+  virtual void publishTransform(const QString& name, vtkMatrix4x4* toParent) = 0;
+};

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qSlicerHandEyeCalibrationModuleWidget.h"
+
+#include "HandEyeCalibrationPanel.h"
+#include "MRMLBridge.h"
+#include "findNavigationHost.h"
+#include "ui_qSlicerHandEyeCalibrationModuleWidget.h"
+#include "vtkSlicerHandEyeCalibrationLogic.h"
+
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include <QSignalBlocker>
+
+#include <vector>
+
+class qSlicerHandEyeCalibrationModuleWidgetPrivate : public Ui_qSlicerHandEyeCalibrationModuleWidget
+{
+public:
+  void observe(vtkSlicerHandEyeCalibrationLogic* newLogic);
+  void publish();
+  void fillTransformNames();
+  void takeTip();
+
+  vtkSmartPointer<vtkSlicerHandEyeCalibrationLogic> logic;
+  std::vector<unsigned long> observers;
+  std::unique_ptr<MRMLBridge> bridge;
+  HandEyeCalibrationPanel* panel = nullptr;
+};
+
+void qSlicerHandEyeCalibrationModuleWidgetPrivate::observe(vtkSlicerHandEyeCalibrationLogic* newLogic)
+{
+  for (const unsigned long observer : this->observers)
+  {
+    this->logic->RemoveObserver(observer);
+  }
+  this->observers.clear();
+  this->logic = newLogic;
+  if (newLogic)
+  {
+    using Logic = vtkSlicerHandEyeCalibrationLogic;
+    for (const unsigned long event : { Logic::CameraCalibratedEvent, Logic::PhantomRegisteredEvent })
+    {
+      this->observers.push_back(newLogic->AddObserver(event, this, &qSlicerHandEyeCalibrationModuleWidgetPrivate::publish));
+    }
+  }
+}
+
+void qSlicerHandEyeCalibrationModuleWidgetPrivate::publish()
+{
+  if (!this->bridge || !this->logic || !this->publishResults->isChecked())
+  {
+    return;
+  }
+  if (vtkMatrix4x4* const markerToCamera = this->logic->GetMarkerToCamera())
+  {
+    this->bridge->publishTransform(QStringLiteral("MarkerToCamera"), markerToCamera);
+  }
+  if (vtkMatrix4x4* const modelToPhantom = this->logic->GetModelToPhantom())
+  {
+    this->bridge->publishTransform(QStringLiteral("ModelToPhantom"), modelToPhantom);
+  }
+}
+
+void qSlicerHandEyeCalibrationModuleWidgetPrivate::fillTransformNames()
+{
+  const QString chosen = this->stylusTipNode->currentText();
+  const QSignalBlocker blocker(this->stylusTipNode);
+  this->stylusTipNode->clear();
+  if (this->bridge)
+  {
+    this->stylusTipNode->addItems(this->bridge->transformNames());
+  }
+  const int tip = this->stylusTipNode->findText(QStringLiteral("StylusTipToStylus"));
+  const int before = this->stylusTipNode->findText(chosen);
+  this->stylusTipNode->setCurrentIndex(before >= 0 ? before : tip >= 0 ? tip : 0);
+  this->takeStylusTip->setEnabled(this->stylusTipNode->count() > 0);
+}
+
+void qSlicerHandEyeCalibrationModuleWidgetPrivate::takeTip()
+{
+  vtkNew<vtkMatrix4x4> tipToStylus;
+  if (this->bridge && this->logic && this->bridge->transformToParent(this->stylusTipNode->currentText(), tipToStylus))
+  {
+    this->logic->SetStylusTip(tipToStylus->GetElement(0, 3), tipToStylus->GetElement(1, 3), tipToStylus->GetElement(2, 3));
+  }
+}
+
+// -----------------------------------------------------------------------------------------------------------------------------------------
+
+qSlicerHandEyeCalibrationModuleWidget::qSlicerHandEyeCalibrationModuleWidget(QWidget* parent)
+  : Superclass(parent)
+  , d_ptr(new qSlicerHandEyeCalibrationModuleWidgetPrivate)
+{
+}
+
+qSlicerHandEyeCalibrationModuleWidget::~qSlicerHandEyeCalibrationModuleWidget()
+{
+  Q_D(qSlicerHandEyeCalibrationModuleWidget);
+  d->observe(nullptr);
+  // Before the logic that it uses.
+  delete d->panel;
+}
+
+void qSlicerHandEyeCalibrationModuleWidget::setup()
+{
+  Q_D(qSlicerHandEyeCalibrationModuleWidget);
+  d->setupUi(this);
+  this->Superclass::setup();
+  d->observe(vtkSlicerHandEyeCalibrationLogic::SafeDownCast(this->logic()));
+  d->panel = new HandEyeCalibrationPanel(d->logic, findNavigationHost(), this);
+  d->panelLayout->addWidget(d->panel);
+  this->setBridge(nullptr);
+  connect(d->publishResults, &QCheckBox::toggled, this, [d] { d->publish(); });
+  connect(d->takeStylusTip, &QPushButton::clicked, this, [d] { d->takeTip(); });
+}
+
+void qSlicerHandEyeCalibrationModuleWidget::setBridge(std::unique_ptr<MRMLBridge> bridge)
+{
+  Q_D(qSlicerHandEyeCalibrationModuleWidget);
+  d->bridge = std::move(bridge);
+  d->sceneGroup->setVisible(d->bridge != nullptr);
+  d->fillTransformNames();
+  d->publish();
+}
+
+void qSlicerHandEyeCalibrationModuleWidget::setMRMLScene(vtkMRMLScene* scene)
+{
+  this->Superclass::setMRMLScene(scene);
+  this->setBridge(MRMLBridge::create(scene));
+}
+
+void qSlicerHandEyeCalibrationModuleWidget::enter()
+{
+  Q_D(qSlicerHandEyeCalibrationModuleWidget);
+  this->Superclass::enter();
+  d->fillTransformNames();
+  if (d->panel)
+  {
+    d->panel->enterModule();
+  }
+}
+
+void qSlicerHandEyeCalibrationModuleWidget::exit()
+{
+  Q_D(qSlicerHandEyeCalibrationModuleWidget);
+  if (d->panel)
+  {
+    d->panel->exitModule();
+  }
+  this->Superclass::exit();
+}
