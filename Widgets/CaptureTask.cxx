@@ -33,7 +33,8 @@ bool isSameColor(const BallColor& a, const BallColor& b)
 nlohmann::json detectionJson(const CapturedFrame& captured)
 {
   nlohmann::json json = { { "status", toString(captured.ball.status) }, { "ball_Image_Px", toJson(captured.ball.ball_Image) },
-    { "radiusPx", captured.ball.radiusPx }, { "distanceMm", captured.ball.distanceMm }, { "confidence", captured.ball.confidence } };
+    { "radiusPx", captured.ball.radiusPx }, { "distanceMm", captured.ball.distanceMm },
+    { "confidence", captured.ball.confidence } };
   if (captured.tip_Marker)
   {
     json["tip_Marker_Mm"] = toJson(*captured.tip_Marker);
@@ -185,8 +186,9 @@ void CaptureTask::openFolder(const QString& folder)
         documents[name] = work.session->document(name).value_or(nlohmann::json());
       }
       const auto deleted = documents.find(DeletedDocument);
-      const nlohmann::json ids =
-        deleted != documents.end() && deleted->second.is_object() ? deleted->second.value("samples", nlohmann::json()) : nlohmann::json();
+      const nlohmann::json ids = deleted != documents.end() && deleted->second.is_object()
+        ? deleted->second.value("samples", nlohmann::json())
+        : nlohmann::json();
       for (const nlohmann::json& id : ids)
       {
         work.deleted.insert(id.is_number_integer() ? id.get<int>() : -1);

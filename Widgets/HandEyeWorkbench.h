@@ -45,8 +45,8 @@ enum class WizardStep
 };
 constexpr int WizardStepCount = 8;
 
-/// The wizard without its windows: devices, tasks and results of one session. Every result is stored with the session as soon as it is
-/// there, and comes back when the session is opened again.
+/// The wizard without its windows: devices, tasks and results of one session. Every result is stored with the session as soon as it
+/// is there, and comes back when the session is opened again.
 ///
 /// Frames and units are those of the layers below (mm, px): p_Camera = markerToCamera * p_Marker.
 ///

@@ -52,7 +52,8 @@ void expectTruth(const HandEyeWorkbench& workbench)
   Eigen::Matrix<double, 6, 1> motion;
   motion << turn.angle() * turn.axis(), error.translation();
   const double mahalanobis = std::sqrt(motion.dot(workbench.calibration()->calibration.covariance.ldlt().solve(motion)));
-  qInfo("off the truth by %.3f deg, %.2f mm, %.1f sigma (6 freedoms)", turn.angle() * 57.2958, error.translation().norm(), mahalanobis);
+  qInfo(
+    "off the truth by %.3f deg, %.2f mm, %.1f sigma (6 freedoms)", turn.angle() * 57.2958, error.translation().norm(), mahalanobis);
   QVERIFY(mahalanobis < 4.5);  // the 99.7 % quantile of chi with 6 degrees of freedom, what 3 sigma are for one
   QVERIFY(turn.angle() < 0.5 / 57.2958);
   QVERIFY(error.translation().norm() < 3);
@@ -162,8 +163,8 @@ void WizardRecordingTest::recording_FromFirstPageToLast()
   QVERIFY(!driver.canGoNext());
   QVERIFY2(driver.reason().contains(QStringLiteral("Register the phantom")), qPrintable(driver.reason()));
   const QTemporaryDir folder;
-  const auto landmarks = handeye::readLandmarkLists(
-    demo("phantom_model_points.txt").toStdString(), demo("phantom_touched_points.txt").toStdString());
+  const auto landmarks =
+    handeye::readLandmarkLists(demo("phantom_model_points.txt").toStdString(), demo("phantom_touched_points.txt").toStdString());
   const QString phantom = folder.filePath(QStringLiteral("phantom.json"));
   handeye::writeJson(
     phantom.toStdString(), handeye::phantomJson(handeye::registerLandmarks(landmarks.points_Model, landmarks.points_Phantom)));
@@ -224,7 +225,7 @@ void WizardRecordingTest::session_ReopenedBringsEverythingBack()
   int samples = 0, excluded = -1, deleted = -1, validated = 0;
   {
     HandEyeCalibrationPanel panel(nullptr, nullptr);
-  printRefusals(panel);
+    printRefusals(panel);
     HandEyeWorkbench& workbench = panel.workbench();
     workbench.openSession(folder);
     QSignalSpy opened(&workbench, &HandEyeWorkbench::sessionOpened);
@@ -241,7 +242,8 @@ void WizardRecordingTest::session_ReopenedBringsEverythingBack()
     panel.goTo(WizardStep::Validation);
     QVERIFY(panel.openFile(demo("validation")));
     QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && !workbench.validationCapture().isBusy(), PatienceMs);
-    QTRY_COMPARE_WITH_TIMEOUT(workbench.validation()->projectionErrorPx.count, workbench.validationCapture().samples().size(), PatienceMs);
+    QTRY_COMPARE_WITH_TIMEOUT(
+      workbench.validation()->projectionErrorPx.count, workbench.validationCapture().samples().size(), PatienceMs);
     validated = workbench.validation()->projectionErrorPx.count;
     markerToCamera = workbench.calibration()->calibration.markerToCamera;
   }
@@ -255,7 +257,8 @@ void WizardRecordingTest::session_ReopenedBringsEverythingBack()
   QVERIFY(workbench.capture().samples()[deleted].isDeleted);
   QVERIFY(workbench.camera()->origin.endsWith(QStringLiteral("camera.yml")));
   QVERIFY(workbench.calibration()->calibration.markerToCamera.isApprox(markerToCamera, 1e-9));
-  for (const WizardStep step : { WizardStep::Camera, WizardStep::Stylus, WizardStep::Ball, WizardStep::Capture, WizardStep::Validation })
+  for (const WizardStep step :
+    { WizardStep::Camera, WizardStep::Stylus, WizardStep::Ball, WizardStep::Capture, WizardStep::Validation })
   {
     QVERIFY2(workbench.problemOf(step).isEmpty(), qPrintable(workbench.problemOf(step)));
   }

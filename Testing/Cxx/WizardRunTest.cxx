@@ -7,7 +7,7 @@
 #include "WizardStepBar.h"
 #include "vtkSlicerHandEyeCalibrationLogic.h"
 
-#include <vtkMatrix4x4.h>
+#include <QCheckBox>
 #include <vtkNew.h>
 
 using handeye::HandEyeWorkbench;
@@ -100,8 +100,21 @@ void WizardRunTest::simulatedRun_CalibrationIsTheRoomsTruth()
   driver.click(driver.find("nextButton"));
   stalls.setPhase(QStringLiteral("overlay"));
   QCOMPARE(panel.currentStep(), WizardStep::Overlay);
-  QTest::qWait(1000);
-  driver.click(driver.find<QToolButton>("stepButton8"));
+  QVERIFY(!driver.canGoNext());
+  if (!driver.onPage<QCheckBox>("handsFreeBox")->isChecked())
+  {
+    driver.check(driver.onPage<QCheckBox>("handsFreeBox"));
+  }
+  const int landmarkCount = int(workbench.devices().room()->landmarks_Model.size());
+  QTRY_VERIFY_WITH_TIMEOUT(
+    workbench.registration() && int(workbench.registration()->residualsMm.size()) == landmarkCount, PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
+  qInfo("overlay %.1f s: %s", double(clock.elapsed()) / 1000, qPrintable(driver.message()));
+  const Eigen::Isometry3d phantomToModel = workbench.devices().room()->modelToPhantom.inverse();
+  const Eigen::Isometry3d registrationError = *workbench.modelToPhantom() * phantomToModel;
+  QVERIFY(registrationError.translation().norm() < 2);
+  QVERIFY(Eigen::AngleAxisd(registrationError.linear()).angle() < 2 / 57.2958);
+  driver.click(driver.find("nextButton"));
   QCOMPARE(panel.currentStep(), WizardStep::Finish);
   QTest::qWait(300);
   stalls.stop();

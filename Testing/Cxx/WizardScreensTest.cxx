@@ -45,7 +45,8 @@ QStringList faultsOf(QWidget& page)
     const auto* label = qobject_cast<QLabel*>(child);
     const bool wraps = label && label->wordWrap();
     const int needed = wraps ? label->heightForWidth(label->width()) : child->minimumSizeHint().height();
-    const QString name = child->objectName().isEmpty() ? QString::fromLatin1(child->metaObject()->className()) : child->objectName();
+    const QString name =
+      child->objectName().isEmpty() ? QString::fromLatin1(child->metaObject()->className()) : child->objectName();
     if (child->height() < needed || (!wraps && child->width() < child->minimumSizeHint().width()))
     {
       faults << QStringLiteral("%1 is cut off (%2 x %3)").arg(name).arg(child->width()).arg(child->height());
@@ -101,7 +102,8 @@ void WizardScreensTest::takePictures(HandEyeCalibrationPanel& panel, const QSize
     QTest::qWait(i == int(WizardStep::Overlay) ? 4000 : 700);
     // The video is drawn by OpenGL: it is taken from the screen.
     const QPixmap picture = panel.screen()->grabWindow(panel.winId());
-    const QString name = QStringLiteral("%1/wizard-%2-%3%4x%5.png").arg(screenshotFolder()).arg(i + 1).arg(mark).arg(size.width()).arg(size.height());
+    const QString name =
+      QStringLiteral("%1/wizard-%2-%3%4x%5.png").arg(screenshotFolder()).arg(i + 1).arg(mark).arg(size.width()).arg(size.height());
     QVERIFY2(picture.save(name), qPrintable(name));
     const QWidget* page = panel.page(WizardStep(i));
     for (const QString& fault : faultsOf(*panel.page(WizardStep(i))))
