@@ -111,7 +111,7 @@ void WizardScreensTest::takePictures(HandEyeCalibrationPanel& panel, const QSize
       faults_ << QStringLiteral("page %1: %2").arg(i + 1).arg(fault);
     }
     const auto* area = panel.findChild<QScrollArea*>(QStringLiteral("scrollArea"));
-    if (page->minimumSizeHint().width() > 408 || page->width() > area->viewport()->width())
+    if (page->minimumSizeHint().width() > 394 || page->width() > area->viewport()->width())
     {
       faults_ << QStringLiteral("page %1 needs %2 px").arg(i + 1).arg(page->minimumSizeHint().width());
     }
