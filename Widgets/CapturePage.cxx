@@ -31,6 +31,15 @@ CapturePage::CapturePage(HandEyeWorkbench& workbench, QWidget* parent)
         workbench_.capture().importRecording(path);
       }
     });
+  connect(ui_->loadButton, &QPushButton::clicked, this,
+    [this]
+    {
+      const QString path = QFileDialog::getOpenFileName(this, tr("Calibration"), {}, tr("Calibrations (*.json);;All files (*)"));
+      if (!path.isEmpty())
+      {
+        workbench_.loadCalibration(path);
+      }
+    });
   connect(ui_->table, &SampleTable::excludeRequested, &capture, &CaptureTask::setExcluded);
   connect(
     ui_->table, &SampleTable::deleteRequested, &capture, [&capture](const QVector<int>& ids) { capture.setDeleted(ids, true); });

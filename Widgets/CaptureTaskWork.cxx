@@ -130,7 +130,12 @@ void CaptureTask::onFrame(const devices::PairedFrame& frame)
   }
   catch (const std::exception& error)
   {
-    tell([message = QString::fromUtf8(error.what())](CaptureTask& task) { emit task.failed(message); });
+    // A full disk or another latency is said once, not with every frame.
+    if (work.lastMessage != error.what())
+    {
+      work.lastMessage = error.what();
+      tell([message = QString::fromUtf8(error.what())](CaptureTask& task) { emit task.failed(message); });
+    }
   }
 }
 

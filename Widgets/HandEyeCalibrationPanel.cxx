@@ -378,6 +378,11 @@ bool HandEyeCalibrationPanel::openFile(const QString& path)
     d->workbench->loadStylus(path);
     return true;
   }
+  if (d->step == WizardStep::Capture && ending == QStringLiteral("json"))
+  {
+    d->workbench->loadCalibration(path);
+    return true;
+  }
   if (d->step == WizardStep::Overlay && ending == QStringLiteral("json"))
   {
     d->workbench->loadRegistration(path);

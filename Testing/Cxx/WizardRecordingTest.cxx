@@ -111,6 +111,7 @@ private slots:
   void samples_ExcludeDeleteUndoRedo();
   void session_ReopenedBringsEverythingBack();
   void session_KilledKeepsWhatWasAnnounced();
+  void calibrationOfAnotherTime_IsValidated();
 };
 
 void WizardRecordingTest::recording_FromFirstPageToLast()
@@ -280,6 +281,30 @@ void WizardRecordingTest::session_KilledKeepsWhatWasAnnounced()
   QVERIFY(panel.openFile(folder));
   QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().capture().samples().size() >= announced, PatienceMs);
   QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().calibration() && panel.workbench().calibration()->isUsable(), PatienceMs);
+}
+
+void WizardRecordingTest::calibrationOfAnotherTime_IsValidated()
+{
+  const QTemporaryDir parent;
+  const QString file = parent.filePath(QStringLiteral("calibration.json"));
+  {
+    HandEyeCalibrationPanel panel(nullptr, nullptr);
+    loadInputs(panel);
+    importCapture(panel);
+    const QString stored = panel.workbench().documentPath(QStringLiteral("calibration"));
+    QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(stored) && QFile::copy(stored, file), PatienceMs);
+  }
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  testing_widgets::show(panel, QSize(1280, 800));
+  WizardDriver driver(panel);
+  panel.goTo(WizardStep::Capture);
+  QVERIFY(!driver.canGoNext());
+  QVERIFY(panel.openFile(file));
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
+  driver.click(driver.find("nextButton"));
+  QVERIFY(panel.openFile(demo("validation")));
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
+  QVERIFY(panel.workbench().validation()->projectionErrorPx.mean < 3);
 }
 
 int main(int argc, char** argv)

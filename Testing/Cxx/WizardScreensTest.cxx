@@ -91,6 +91,14 @@ void WizardScreensTest::fill(HandEyeCalibrationPanel& panel)
   QTRY_VERIFY_WITH_TIMEOUT(workbench.calibration() && workbench.calibration()->isUsable(), PatienceMs);
   panel.goTo(WizardStep::Validation);
   QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count >= 4, PatienceMs);
+  const handeye::simulation::RoomOptions& room = *workbench.devices().room();
+  std::vector<Eigen::Vector3d> points_Phantom;
+  for (const Eigen::Vector3d& landmark_Model : room.landmarks_Model)
+  {
+    points_Phantom.push_back(room.modelToPhantom * landmark_Model);
+  }
+  workbench.registerLandmarks(room.landmarks_Model, points_Phantom);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.modelToPhantom().has_value(), PatienceMs);
 }
 
 void WizardScreensTest::takePictures(HandEyeCalibrationPanel& panel, const QSize& size, const QString& mark)
