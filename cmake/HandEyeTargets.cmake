@@ -43,7 +43,7 @@ function(handeye_add_library target)
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/HandEye>)
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   handeye_configure_target(${target})
-  if(arg_INTERNAL)
+  if(arg_INTERNAL OR HANDEYE_SLICER_BUILD)
     return()
   endif()
   install(TARGETS ${target} EXPORT HandEyeTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}

@@ -32,7 +32,7 @@ struct DesktopOptions
   bool noSplash = false;
   bool exitAfterStartup = false;
   bool checkDisplay = false;  ///< only whether windows can be opened
-  QStringList files;  ///< to open once the module is there
+  QStringList files;          ///< to open once the module is there
 
   /// @param arguments as main() has them, the program's name first
   static DesktopOptions parse(const QStringList& arguments);

@@ -8,6 +8,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QScrollArea>
+#include <QStyle>
 #include <QTextBrowser>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -121,6 +122,9 @@ QString ModulePanel::setModule(qSlicerAbstractModule* module)
   if (this->Panel)
   {
     this->Area->setWidget(this->Panel);
+    // Nothing is cut off to the side, whether there is a scroll bar or not.
+    this->Area->setMinimumWidth(
+      this->Panel->minimumSizeHint().width() + this->style()->pixelMetric(QStyle::PM_ScrollBarExtent, nullptr, this));
     this->Panel->show();
     this->Panel->enter();
   }

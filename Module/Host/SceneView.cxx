@@ -10,6 +10,7 @@
 #include <vtkAxesActor.h>
 #include <vtkCamera.h>
 #include <vtkCaptionActor2D.h>
+#include <vtkCommand.h>
 #include <vtkInteractorStyleTrackballCamera.h>
 #include <vtkObjectFactory.h>
 #include <vtkRenderWindowInteractor.h>
@@ -74,6 +75,7 @@ SceneView::SceneView(QWidget* parent)
   this->Renderer->SetUseFXAA(true);
   vtkNew<TrackballStyle> style;
   style->Reset = [this] { this->resetCamera(); };
+  style->AddObserver(vtkCommand::StartInteractionEvent, this, &SceneView::stopFitting);
   this->View->interactor()->SetInteractorStyle(style);
 
   vtkNew<vtkAxesActor> axes;
@@ -174,6 +176,10 @@ void SceneView::render()
     return;
   }
   ++this->RenderCount;
+  if (this->IsFitting)
+  {
+    this->fitIfOutgrown();
+  }
   // A module's props moved: what is near and far has changed with them.
   this->Renderer->ResetCameraClippingRange();
   this->Window->Render();
@@ -204,10 +210,40 @@ void SceneView::measureScene(double bounds[6])
   this->Scale->setText(hasFloor ? tr("floor: %1 mm").arg(this->Floor->spacingMm()) : QString());
 }
 
+void SceneView::stopFitting()
+{
+  this->IsFitting = false;
+}
+
+void SceneView::fitIfOutgrown()
+{
+  double bounds[6];
+  this->Floor->setCounted(false);
+  this->Renderer->ComputeVisiblePropBounds(bounds);
+  this->Floor->setCounted(true);
+  const vtkBoundingBox now(bounds);
+  if (!now.IsValid() || (this->Shown.IsValid() && this->Shown.Contains(now) != 0))
+  {
+    return;
+  }
+  // With some room, so that a tool that moves does not push the view at every step.
+  vtkBoundingBox grown = this->Shown;
+  grown.AddBox(now);
+  grown.Inflate(grown.GetMaxLength() * 0.05);
+  this->Shown = grown;
+  this->Shown.GetBounds(bounds);
+  this->Floor->placeUnder(bounds);
+  this->Scale->setText(
+    this->Floor->plane() != SceneFloor::Plane::None ? tr("floor: %1 mm").arg(this->Floor->spacingMm()) : QString());
+  this->Renderer->ResetCamera(bounds);
+}
+
 void SceneView::resetCamera()
 {
   double bounds[6];
   this->measureScene(bounds);
+  this->IsFitting = true;
+  this->Shown.SetBounds(bounds);
   if (bounds[0] > bounds[1])
   {
     vtkCamera* const camera = this->Renderer->GetActiveCamera();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vtkBoundingBox.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
 #include <vtkOrientationMarkerWidget.h>
@@ -22,6 +23,8 @@ namespace desktop
 class SceneFloor;
 
 /// The three-dimensional view, mm: a renderer for the props of modules, axes in a corner, a floor, and buttons to look from each side.
+///
+/// As long as nobody has turned the view, it is reset by itself when the scene outgrows what was shown; the reset button brings that back.
 ///
 /// requestRender() costs nothing: the view draws once for many requests, and not faster than every 16 ms.
 class SceneView : public QWidget
@@ -55,6 +58,9 @@ private:
   void setFloor(int plane);
   /// Without the floor; puts the floor under it.
   void measureScene(double bounds[6]);
+  /// Resets the camera if something has come outside of what it was reset for.
+  void fitIfOutgrown();
+  void stopFitting();
 
   QVTKOpenGLNativeWidget* View;
   QWidget* Bar;
@@ -65,6 +71,8 @@ private:
   vtkNew<vtkRenderer> Renderer;
   vtkNew<vtkOrientationMarkerWidget> Axes;
   std::unique_ptr<SceneFloor> Floor;
+  vtkBoundingBox Shown;   ///< what the camera was last reset for
+  bool IsFitting = true;  ///< nobody has turned the view since
   QTimer RenderTimer;
   int RenderCount = 0;
 };

@@ -12,6 +12,7 @@
 #include "StreamLights.h"
 #include "ViewArea.h"
 
+#include <QVTKOpenGLNativeWidget.h>
 #include <vtkActor.h>
 #include <vtkCubeSource.h>
 #include <vtkNew.h>
@@ -422,6 +423,44 @@ private slots:
     renderer->WorldToView();
     renderer->GetViewPoint(focus);
     QVERIFY(qAbs(focus[0]) < 1e-6 && qAbs(focus[1]) < 1e-6);
+    renderer->RemoveActor(actor);
+  }
+
+  void sceneCamera_FollowsUntilSomebodyTurnsIt()
+  {
+    vtkNew<vtkCubeSource> cube;
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputConnection(cube->GetOutputPort());
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    vtkRenderer* const renderer = this->Window->sceneRenderer();
+    renderer->AddActor(actor);
+    const auto distanceFrom = [&](double x)
+    {
+      renderer->SetWorldPoint(x, 0, 0, 1);
+      renderer->WorldToView();
+      const double* const view = renderer->GetViewPoint();
+      return std::max(std::abs(view[0]), std::abs(view[1]));
+    };
+    auto* const scene = this->Window->findChild<desktop::SceneView*>();
+    const auto moveTo = [&](double x)
+    {
+      const int before = scene->renderCount();
+      actor->SetPosition(x, 0, 0);
+      this->Window->requestSceneRender();
+      QTRY_VERIFY(scene->renderCount() > before);
+    };
+    moveTo(0);
+    moveTo(3000);
+    QVERIFY(distanceFrom(3000) < 1);
+    auto* const view = scene->findChild<QVTKOpenGLNativeWidget*>();
+    QTest::mousePress(view, Qt::LeftButton, Qt::NoModifier, QPoint(100, 100));
+    QTest::mouseMove(view, QPoint(110, 100));
+    QTest::mouseRelease(view, Qt::LeftButton, Qt::NoModifier, QPoint(110, 100));
+    moveTo(90000);
+    QVERIFY(distanceFrom(90000) > 1);
+    QTest::mouseClick(scene->findChild<QToolButton*>("SceneReset"), Qt::LeftButton);
+    QVERIFY(distanceFrom(90000) < 1);
     renderer->RemoveActor(actor);
   }
 

@@ -45,7 +45,8 @@ QStringList faultsOf(QWidget& page)
     const auto* label = qobject_cast<QLabel*>(child);
     const bool wraps = label && label->wordWrap();
     const int needed = wraps ? label->heightForWidth(label->width()) : child->minimumSizeHint().height();
-    const QString name = child->objectName().isEmpty() ? QString::fromLatin1(child->metaObject()->className()) : child->objectName();
+    const QString name =
+      child->objectName().isEmpty() ? QString::fromLatin1(child->metaObject()->className()) : child->objectName();
     if (child->height() < needed || (!wraps && child->width() < child->minimumSizeHint().width()))
     {
       faults << QStringLiteral("%1 is cut off (%2 x %3)").arg(name).arg(child->width()).arg(child->height());
@@ -71,6 +72,8 @@ private slots:
 private:
   void fill(HandEyeCalibrationPanel& panel);
   void takePictures(HandEyeCalibrationPanel& panel, const QSize& size, const QString& mark);
+
+  QStringList faults_;
 };
 
 /// A session with everything in it, and the demo's recording as live video.
@@ -79,15 +82,23 @@ void WizardScreensTest::fill(HandEyeCalibrationPanel& panel)
   HandEyeWorkbench& workbench = panel.workbench();
   handeye::DeviceSetup setup;
   QVERIFY(workbench.connectDevices(setup));
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.problemOf(WizardStep::Devices).isEmpty(), 10000);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.problemOf(WizardStep::Devices).isEmpty(), PatienceMs);
   panel.goTo(WizardStep::Stylus);
   workbench.pivot().start(setup.stylusToTracker);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.stylus().has_value(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.stylus().has_value(), PatienceMs);
   panel.goTo(WizardStep::Capture);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.capture().samples().size() >= 8, 40000);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.calibration() && workbench.calibration()->isUsable(), 5000);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.capture().samples().size() >= 8, PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.calibration() && workbench.calibration()->isUsable(), PatienceMs);
   panel.goTo(WizardStep::Validation);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count >= 4, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count >= 4, PatienceMs);
+  const handeye::simulation::RoomOptions& room = *workbench.devices().room();
+  std::vector<Eigen::Vector3d> points_Phantom;
+  for (const Eigen::Vector3d& landmark_Model : room.landmarks_Model)
+  {
+    points_Phantom.push_back(room.modelToPhantom * landmark_Model);
+  }
+  workbench.registerLandmarks(room.landmarks_Model, points_Phantom);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.modelToPhantom().has_value(), PatienceMs);
 }
 
 void WizardScreensTest::takePictures(HandEyeCalibrationPanel& panel, const QSize& size, const QString& mark)
@@ -99,12 +110,19 @@ void WizardScreensTest::takePictures(HandEyeCalibrationPanel& panel, const QSize
     QTest::qWait(i == int(WizardStep::Overlay) ? 4000 : 700);
     // The video is drawn by OpenGL: it is taken from the screen.
     const QPixmap picture = panel.screen()->grabWindow(panel.winId());
-    const QString name = QStringLiteral("%1/wizard-%2-%3%4x%5.png").arg(screenshotFolder()).arg(i + 1).arg(mark).arg(size.width()).arg(size.height());
+    const QString name =
+      QStringLiteral("%1/wizard-%2-%3%4x%5.png").arg(screenshotFolder()).arg(i + 1).arg(mark).arg(size.width()).arg(size.height());
     QVERIFY2(picture.save(name), qPrintable(name));
-    const QStringList faults = faultsOf(*static_cast<QWidget*>(panel.page(WizardStep(i))));
-    QVERIFY2(faults.isEmpty(), qPrintable(QStringLiteral("page %1: %2").arg(i + 1).arg(faults.join(QStringLiteral("; ")))));
+    const QWidget* page = panel.page(WizardStep(i));
+    for (const QString& fault : faultsOf(*panel.page(WizardStep(i))))
+    {
+      faults_ << QStringLiteral("page %1: %2").arg(i + 1).arg(fault);
+    }
     const auto* area = panel.findChild<QScrollArea*>(QStringLiteral("scrollArea"));
-    QVERIFY2(area->widget()->width() <= area->viewport()->width(), qPrintable(QStringLiteral("page %1 is wider than the panel").arg(i + 1)));
+    if (page->minimumSizeHint().width() > 394 || page->width() > area->viewport()->width())
+    {
+      faults_ << QStringLiteral("page %1 needs %2 px").arg(i + 1).arg(page->minimumSizeHint().width());
+    }
   }
 }
 
@@ -121,6 +139,7 @@ void WizardScreensTest::everyPage_AtBothSizes()
   QApplication::setPalette(testing_widgets::darkPalette());
   takePictures(panel, QSize(2560, 1440), QStringLiteral("dark-"));
   QApplication::setPalette(testing_widgets::lightPalette());
+  QVERIFY2(faults_.isEmpty(), qPrintable(faults_.join(QLatin1Char('\n'))));
 }
 
 HANDEYE_WIDGET_TEST_MAIN(WizardScreensTest)
