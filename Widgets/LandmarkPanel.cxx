@@ -368,7 +368,10 @@ LandmarkPanel::LandmarkPanel(QWidget* parent)
   d->update();
 }
 
-LandmarkPanel::~LandmarkPanel() = default;
+LandmarkPanel::~LandmarkPanel()
+{
+  d->ui.table->disconnect(this);
+}
 
 bool LandmarkPanel::loadModelLandmarks(const QString& path)
 {

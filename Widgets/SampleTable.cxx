@@ -233,7 +233,13 @@ SampleTable::SampleTable(QWidget* parent)
   d->updateActions();
 }
 
-SampleTable::~SampleTable() = default;
+SampleTable::~SampleTable()
+{
+  // Stack and view outlive `d` by a moment, and speak while they go.
+  d->stack->disconnect(this);
+  d->view->selectionModel()->disconnect(this);
+  d->view->disconnect(this);
+}
 
 void SampleTable::setRows(const QVector<SampleRow>& rows)
 {

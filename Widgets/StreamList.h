@@ -38,6 +38,7 @@ public:
     Phantom,  ///< may be none
     Video
   };
+  Q_ENUM(Role)
   static constexpr int RoleCount = 4;
 
   struct Stream

@@ -81,6 +81,7 @@ VideoView::VideoView(QWidget* parent)
   : QWidget(parent)
   , d(std::make_unique<Private>(*this))
 {
+  qRegisterMetaType<Qt::KeyboardModifiers>("Qt::KeyboardModifiers");
   this->setAccessibleName(tr("Video"));
   this->setMinimumSize(160, 120);
   d->gl->setRenderWindow(d->window);
@@ -254,12 +255,21 @@ bool VideoView::eventFilter(QObject* watched, QEvent* event)
     case QEvent::KeyPress:
     {
       const auto* key = static_cast<QKeyEvent*>(event);
-      if (key->key() == Qt::Key_Tab || key->key() == Qt::Key_Backtab)
+      switch (key->key())
       {
-        return false;
+        case Qt::Key_Tab:
+        case Qt::Key_Backtab:
+          return false;
+        case Qt::Key_Shift:
+        case Qt::Key_Control:
+        case Qt::Key_Alt:
+        case Qt::Key_AltGr:
+        case Qt::Key_Meta:
+          return true;  // no key by itself
+        default:
+          emit keyPressed(key->key(), key->modifiers());
+          return true;
       }
-      emit keyPressed(key->key(), key->modifiers());
-      return true;
     }
     case QEvent::MouseButtonRelease:
     case QEvent::MouseButtonDblClick:

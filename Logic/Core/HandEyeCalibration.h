@@ -123,7 +123,9 @@ struct HandEyeCalibrationResult
   double pointToLineRmsMm = 0;
   int iterations = 0;
   double conditionNumber = 0;
-  int rank = 0;                ///< freedoms that are determined, 6 if all
+  int rank = 0;  ///< freedoms that are determined, 6 if all
+  /// The samples would fit much better with another focal length: the message says so. Looked for where the result is poor.
+  bool isLensSuspect = false;
   std::string weakestFreedom;  ///< in words, with what it amounts to; of a covariance that is there
   PredictedError predicted;    ///< of the first eye
   std::vector<PredictedError> predictedByEye;

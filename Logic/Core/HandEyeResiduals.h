@@ -50,6 +50,9 @@ std::optional<HandEyeTerm> handEyeTerm(
 /// Mean of fx and fy.
 double focalLength(const CameraModel& camera);
 
+/// How often the calibration renews its weights.
+constexpr int HandEyeWeightRounds = 4;
+
 /// The solution of some of the samples; weights follow the distances that the solution itself gives.
 /// @param weightRounds how often the weights are renewed; 0 for equal weights
 /// @param findRivals see PointLineOptions

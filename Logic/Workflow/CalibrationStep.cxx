@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CalibrationStep.h"
 
+#include "HandEyeUncertainty.h"
+
 #include <algorithm>
+#include <numeric>
 
 namespace handeye
 {
@@ -42,10 +45,20 @@ std::vector<CalibratedFrame> toFrames(
   return frames;
 }
 
-/// Where the balls of the usable (or, if there is none, of all) samples were.
+/// More placements help; where samples contradict each other they do not.
+bool isPlanned(HandEyeCalibrationResult::Status status)
+{
+  using Status = HandEyeCalibrationResult::Status;
+  return status == Status::Ok || status == Status::TooFewSamples || status == Status::NotObservable ||
+    status == Status::Ambiguous || status == Status::TooUncertain;
+}
+
+/// Where the balls of the usable (or, if there is none, of all) samples were; once for each place of a ball that was held still, as the
+/// verdict counts them.
 std::vector<Eigen::Vector3d> ballPlaces(const CalibrationStepResult& result)
 {
-  std::vector<Eigen::Vector3d> places;
+  std::vector<Eigen::Vector3d> balls_Camera;
+  HandEyeSamples samples;
   for (const CalibratedFrame& frame : result.frames)
   {
     const CapturedFrame& captured = frame.captured;
@@ -55,10 +68,19 @@ std::vector<Eigen::Vector3d> ballPlaces(const CalibrationStepResult& result)
     }
     const Eigen::Vector3d byTracking = result.calibration.markerToCamera * *captured.tip_Marker;
     const Eigen::Vector3d bySize = captured.ball.ray_Camera * captured.ball.distanceMm;
-    const Eigen::Vector3d& ball_Camera = result.calibration.isUsable() ? byTracking : bySize;
-    if (ball_Camera.z() > 0)
+    balls_Camera.push_back(result.calibration.isUsable() ? byTracking : bySize);
+    samples.emplace_back();
+    samples.back().tip_Marker = *captured.tip_Marker;
+  }
+  std::vector<int> all(samples.size());
+  std::iota(all.begin(), all.end(), 0);
+  const std::vector<int> firsts = placesOf(samples, all);
+  std::vector<Eigen::Vector3d> places;
+  for (int i : all)
+  {
+    if (firsts[std::size_t(i)] == i && balls_Camera[std::size_t(i)].z() > 0)
     {
-      places.push_back(ball_Camera);
+      places.push_back(balls_Camera[std::size_t(i)]);
     }
   }
   return places;
@@ -70,6 +92,10 @@ void addGuidance(CalibrationStepResult& result, const HandEyeCalibrationOptions&
 {
   // A working volume of no depth would ask for all balls at one distance.
   constexpr double leastDepthRatio = 1.5;
+  if (!isPlanned(result.calibration.status) || result.calibration.isLensSuspect)
+  {
+    return;
+  }
   const std::vector<Eigen::Vector3d> places = ballPlaces(result);
   HandEyeGuidanceOptions guidance;
   guidance.trackingSigmaMm = options.trackingSigmaMm;

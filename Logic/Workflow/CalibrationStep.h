@@ -65,7 +65,8 @@ void moveTips(std::vector<CapturedFrame>& frames, const Eigen::Vector3d& correct
 using DepthRange = std::optional<std::pair<double, double>>;
 
 /// Says where to hold the ball next; sets result.guidance. Where the capture gives no calibration, the balls' apparent sizes tell
-/// where they were.
+/// where they were. Nothing is planned where samples contradict each other (no consensus, wrong scale, a marker that moved): more of them
+/// would not help.
 void addGuidance(CalibrationStepResult& result, const HandEyeCalibrationOptions& options, const DepthRange& depthsMm);
 
 /// Calibrates one camera from an evaluated capture.

@@ -20,6 +20,7 @@ void addPivotCommand(CLI::App& app, int& exitCode);
 void addSpinCommand(CLI::App& app, int& exitCode);
 void addCalibrateCommand(CLI::App& app, int& exitCode);
 void addValidateCommand(CLI::App& app, int& exitCode);
+void addCompareCommand(CLI::App& app, int& exitCode);
 void addDetectCommand(CLI::App& app, int& exitCode);
 void addRegisterCommand(CLI::App& app, int& exitCode);
 void addLandmarksCommand(CLI::App& app, int& exitCode);
@@ -31,5 +32,6 @@ void addRecordCommand(CLI::App& app, int& exitCode);
 void addCaptureCommand(CLI::App& app, int& exitCode);
 void addStreamsCommand(CLI::App& app, int& exitCode);
 void addLatencyCommand(CLI::App& app, int& exitCode);
+void addStudyCommand(CLI::App& app, int& exitCode);
 
 }  // namespace handeye::cli

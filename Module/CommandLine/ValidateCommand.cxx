@@ -4,6 +4,7 @@
 #include "CommandOutput.h"
 #include "Commands.h"
 #include "CommonOptions.h"
+#include "OffscreenRendering.h"
 #include "ResultFiles.h"
 #include "TimedPose.h"
 #include "ValidationReport.h"
@@ -59,8 +60,9 @@ int runValidate(const ValidateArguments& arguments)
   }
   if (!arguments.report.empty())
   {
+    registerOffscreenRendering();
     writeValidationReport(arguments.report, step, recording);
-    arguments.output.say("report in            " + arguments.report + "/report.html");
+    arguments.output.say("report in            " + arguments.report + "/report.html, report.pdf");
   }
   return arguments.output.finish(validationJson(step));
 }
@@ -73,7 +75,7 @@ void addValidateCommand(CLI::App& app, int& exitCode)
   CLI::App* command = app.add_subcommand("validate", "Measure a calibration's projection error on a capture that was not fitted");
   addRecordingArgument(*command, arguments->recording, "Another capture: images and tracking");
   addCalibrationOption(*command, arguments->calibration);
-  command->add_option("--report", arguments->report, "Write report.html and a picture a frame into this folder")->type_name("DIR");
+  command->add_option("--report", arguments->report, "Write report.html, report.pdf, errors.csv and a picture a frame into this folder")->type_name("DIR");
   arguments->ball.addTo(*command);
   addTransformOption(*command, "--stylus-transform", arguments->stylusTransform, "stylus");
   addTransformOption(*command, "--marker-transform", arguments->markerTransform, "camera's marker");

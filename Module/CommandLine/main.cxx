@@ -50,6 +50,7 @@ int main(int argc, char** argv)
   addSpinCommand(app, exitCode);
   addCalibrateCommand(app, exitCode);
   addValidateCommand(app, exitCode);
+  addCompareCommand(app, exitCode);
   addDetectCommand(app, exitCode);
   addRegisterCommand(app, exitCode);
   addLandmarksCommand(app, exitCode);
@@ -61,6 +62,7 @@ int main(int argc, char** argv)
   addCaptureCommand(app, exitCode);
   addStreamsCommand(app, exitCode);
   addLatencyCommand(app, exitCode);
+  addStudyCommand(app, exitCode);
   try
   {
     app.parse(argc, argv);

@@ -112,6 +112,51 @@ TEST(CalibrationStep, TooFewSamples_KeepTheFramesStatus)
   }
 }
 
+/// A video of balls that are held still has many frames of each place: they are one place for the plan as for the verdict.
+TEST(CalibrationStep, PlanForTheNextPlacement_CountsAPlaceOnce)
+{
+  const TemporaryFolder folder;
+  const SimulatedSession session(6);
+  const io::Recording recording = io::Recording::open(session.write(folder.path() / "capture", session.trackAll()));
+  const auto once = readCapture(recording, {}, session.camera, session.tip_Stylus, session.ballRadiusMm);
+  auto often = once;
+  for (int repeat = 0; repeat < 9; ++repeat)
+  {
+    often.insert(often.end(), once.begin(), once.end());
+  }
+  CalibrationStepResult single = calibrateCapture({ session.camera, once }), repeated = calibrateCapture({ session.camera, often });
+  ASSERT_TRUE(single.isUsable() && repeated.isUsable()) << single.calibration.message << repeated.calibration.message;
+  // The same noise for both, so that only the count of places could make a difference.
+  repeated.calibration.trackingSigmaMm = single.calibration.trackingSigmaMm;
+  repeated.calibration.segmentationSigmaPx = single.calibration.segmentationSigmaPx;
+  addGuidance(single, {}, {});
+  addGuidance(repeated, {}, {});
+  ASSERT_TRUE(single.guidance && repeated.guidance);
+  EXPECT_NEAR(repeated.guidance->maximumPx, single.guidance->maximumPx, 0.02 * single.guidance->maximumPx);
+}
+
+TEST(CalibrationStep, SamplesThatContradictEachOther_AreNotPlannedFor)
+{
+  const TemporaryFolder folder;
+  const SimulatedSession session(10);
+  const io::Recording recording = io::Recording::open(session.write(folder.path() / "capture", session.trackAll()));
+  auto frames = readCapture(recording, {}, session.camera, session.tip_Stylus, session.ballRadiusMm);
+  std::vector<Eigen::Vector3d> tips_Marker;
+  for (const CapturedFrame& captured : frames)
+  {
+    tips_Marker.push_back(captured.tip_Marker.value());
+  }
+  for (std::size_t i = 0; i < frames.size(); ++i)
+  {
+    frames[i].tip_Marker = tips_Marker[(3 * i + 1) % tips_Marker.size()];  // poses of other frames
+  }
+  CalibrationStepResult result = calibrateCapture({ session.camera, frames });
+  ASSERT_FALSE(result.isUsable());
+  ASSERT_EQ(result.calibration.status, Status::NoConsensus) << result.calibration.message;
+  addGuidance(result, {}, {});
+  EXPECT_FALSE(result.guidance);
+}
+
 TEST(CalibrationStep, StereoWithAKnownRelation_IsOneRegistration)
 {
   const SimulatedSession left(8), right = rightEyeOf(left);

@@ -64,6 +64,29 @@ HandEyeSample sampleAt(const Eigen::Vector3d& ball_Camera, Random& random)
 
 }  // namespace
 
+/// The camera file of another camera, or of another zoom, is what a poor calibration most often rests on: it must not be a puzzle.
+TEST(HandEyeRobustness, CameraFileOfAnotherZoom_IsNamed)
+{
+  for (const double factor : { 0.85, 0.93, 1.08, 1.15 })
+  {
+    Random random(11);
+    const auto samples = simulateSamples(webcam(), typicalMarkerToCamera(), 15, typicalCapture(), random);
+    const CameraModel right = webcam();
+    Eigen::Matrix3d cameraMatrix = right.cameraMatrix();
+    cameraMatrix.topLeftCorner<2, 2>() *= factor;
+    const CameraModel wrong(right.width(), right.height(), cameraMatrix, right.distortionCoefficients());
+    Samples seen = samples;
+    for (HandEyeSample& sample : seen)
+    {
+      sample.ray_Eye = wrong.unproject(sample.ball_Image).ray_Camera;
+    }
+    const HandEyeCalibrationResult result = calibrateHandEye(seen, { { wrong } });
+    EXPECT_TRUE(result.isLensSuspect) << factor << ": " << result.message;
+    EXPECT_NE(result.message.find("focal length"), std::string::npos) << factor << ": " << result.message;
+    EXPECT_FALSE(calibrateHandEye(samples, { { right } }).isLensSuspect);
+  }
+}
+
 TEST(HandEyeRobustness, CleanSamples_AreAllUsed)
 {
   for (unsigned seed = 0; seed < 8; ++seed)

@@ -5,11 +5,12 @@
 #include <QApplication>
 #include <QImage>
 #include <QPalette>
-#include <QSurfaceFormat>
 #include <QStyle>
+#include <QSurfaceFormat>
 #include <QTest>
 #include <QVTKOpenGLNativeWidget.h>
 
+#include <algorithm>
 #include <cmath>
 
 /// main() of a test of widgets with OpenGL in them: like QTEST_MAIN, but with VTK's surface format, which has to be set first.
@@ -80,6 +81,8 @@ inline void show(QWidget& widget, const QSize& size)
 {
   widget.resize(size);
   widget.show();
+  // There is no window manager in the test's X server: nobody else gives the window the keyboard.
+  widget.activateWindow();
   QVERIFY(QTest::qWaitForWindowExposed(&widget));
   QTest::qWait(50);
 }

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Capture.h"
+#include "MethodComparison.h"
+#include "Recording.h"
+#include "ReportDocument.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace handeye
+{
+
+/// What the report of a comparison needs besides its result.
+struct ComparisonReportInput
+{
+  std::vector<HandEyeSample> validation;     ///< what was compared on
+  std::vector<CapturedFrame> frames;         ///< the frames of the validation, for their pictures
+  const io::Recording* recording = nullptr;  ///< of the validation; without it there are no pictures
+  std::vector<std::string> facts;            ///< sentences about captures, lens and noise: what was compared, from which files
+};
+
+/// The report of `handeye compare`: verdict, one row a method (the paper's tables 2-4), error against distance and against the number
+/// of samples, repeatability, predicted and segmented centres on the pictures; with the data as CSV.
+[[nodiscard]] report::ReportDocument comparisonDocument(const ComparisonResult& result, const ComparisonReportInput& input);
+
+/// @throws as report::writeReport()
+void writeComparisonReport(const std::filesystem::path& folder, const ComparisonResult& result, const ComparisonReportInput& input);
+
+namespace report
+{
+
+/// The tables of it, for whoever pools comparisons.
+[[nodiscard]] Table methodsTable(const std::vector<MethodResult>& methods, const std::string& caption);
+[[nodiscard]] Table subsetsTable(const std::vector<MethodResult>& methods);
+[[nodiscard]] Table repeatabilityTable(const std::vector<MethodResult>& methods);
+
+}  // namespace report
+
+}  // namespace handeye

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ComparisonReport.h"
+#include "NumberWords.h"
+
+namespace handeye::report
+{
+
+Table methodsTable(const std::vector<MethodResult>& methods, const std::string& caption)
+{
+  Table table;
+  table.caption = caption;
+  table.headings = { "method", "target", "status", "mean", "std", "min", "max", "RMS", "errors", "calibrations", "time (s)",
+    "what it is" };
+  table.textColumns = 3;
+  table.endsWithText = true;
+  for (const MethodResult& method : methods)
+  {
+    const Summary& error = method.errorPx;
+    const bool ok = method.isUsable();
+    const auto px = [&](double value) { return ok ? fixedDigits(value, 2) : std::string(); };
+    const bool allUsable = method.usableCount() == int(method.captures.size());
+    table.rows.push_back({ method.name, toString(method.target), method.status, px(error.mean), px(error.standardDeviation),
+      px(error.minimum), px(error.maximum), px(error.rms), std::to_string(error.count),
+      std::to_string(method.usableCount()) + " of " + std::to_string(method.captures.size()),
+      significantDigits(method.medianSeconds(), 2),
+      method.title + " (" + method.reference + ")" + (ok && allUsable ? "" : ". " + method.message) });
+  }
+  return table;
+}
+
+Table subsetsTable(const std::vector<MethodResult>& methods)
+{
+  const std::vector<int> sizes = { 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30 };
+  Table table;
+  table.caption =
+    "Median of the mean projection errors (px) by the number of samples; in brackets the share of subsets that gave a "
+    "calibration, where not all did";
+  table.headings = { "method" };
+  int largest = 0;
+  for (const MethodResult& method : methods)
+  {
+    largest = std::max(largest, method.subsets.empty() ? 0 : method.subsets.back().sampleCount);
+  }
+  for (const int size : sizes)
+  {
+    if (size <= largest)
+    {
+      table.headings.push_back(std::to_string(size));
+    }
+  }
+  for (const MethodResult& method : methods)
+  {
+    if (method.subsets.empty())
+    {
+      continue;
+    }
+    std::vector<std::string> row(table.headings.size());
+    row[0] = method.name;
+    for (const SubsetErrors& subset : method.subsets)
+    {
+      for (std::size_t column = 1; column < row.size(); ++column)
+      {
+        if (sizes[column - 1] == subset.sampleCount && subset.repetitions > 0)
+        {
+          const int share = 100 * subset.usable / subset.repetitions;
+          row[column] = (subset.usable > 0 ? fixedDigits(subset.medianPx, 2) : std::string("none")) +
+            (share < 100 && share > 0 ? " (" + std::to_string(share) + " %)" : "");
+        }
+      }
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table repeatabilityTable(const std::vector<MethodResult>& methods)
+{
+  Table table;
+  table.headings = { "method", "of", "calibrations", "rotation (deg)", "translation (mm)", "projection (px)", "worst (px)" };
+  table.textColumns = 2;
+  for (const MethodResult& method : methods)
+  {
+    const Repeatability& spread = method.repeatability;
+    if (spread.attempts == 0)
+    {
+      continue;
+    }
+    const bool ok = spread.calibrations > 1;
+    const auto number = [&](double value, int digits) { return ok ? fixedDigits(value, digits) : std::string(); };
+    table.rows.push_back({ method.name, spread.areHalves ? "random halves" : "captures",
+      std::to_string(spread.calibrations) + " of " + std::to_string(spread.attempts), number(spread.rotationDeg, 3),
+      number(spread.translationMm, 2), number(spread.projectionPx, 2), number(spread.worstPx, 2) });
+  }
+  return table;
+}
+
+}  // namespace handeye::report

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "MethodComparison.h"
+#include "StudyTrial.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace handeye::study
+{
+
+struct StudyOptions
+{
+  int repetitions = 100;
+  unsigned seed = 1;
+  int jobs = 1;                   ///< threads
+  TrialSize size;                 ///< samples and views of a repetition
+  double trackingSigmaMm = 0.12;  ///< of every pose of every marker, per axis
+  double trackingSigmaDeg = 0.025;
+  bool isNoiseFree = false;          ///< neither tracker nor features have noise: every method must find the truth
+  int noisePictures = 20;            ///< of ball and board each, from which a camera's feature noise is measured
+  int subsetRepetitions = 20;        ///< the first so many repetitions also give random subsets of 3 to 30 samples
+  int renderedRepetitions = 0;       ///< repetitions whose features are really found in rendered pictures, besides the others
+  double branchAndBoundSec = 2;      ///< time limit of one; 0 leaves it out
+  std::vector<std::string> cameras;  ///< names; all where empty
+  /// Told how many of how many steps are done, from any of the threads, one at a time; returns false to stop.
+  std::function<bool(const std::string& what, int done, int total)> progress;
+
+  /// @throws std::invalid_argument with a sentence where a number makes no sense or there is no such camera
+  void check() const;
+};
+
+/// What was found for one camera. All repetitions and eyes are pooled.
+struct StudyCameraResult
+{
+  StudyCamera camera;
+  StudyNoise noise;             ///< that the repetitions had
+  FeatureNoise measured;        ///< where the features' part of it comes from
+  ComparisonResult comparison;  ///< against what the validation shows: tracked and segmented balls, as a user has them
+  ComparisonResult truth;       ///< the same calibrations against the same balls without noise: the calibrations' own error
+  Summary floorPx;              ///< what the validation shows of a perfect calibration: the noise of the validation alone
+  /// With features that were found in pictures; no methods where none were asked for.
+  ComparisonResult rendered;
+  int renderedEyes = 0;
+};
+
+/// Whether what the paper reports holds for a camera.
+struct StudyClaim
+{
+  std::string camera;
+  bool hasLowestMean = false;  ///< point-to-line (`ml`) against every method with a board
+  bool hasLowestMaximum = false;
+  std::string lowestMean, lowestMaximum;  ///< whose they are, of all methods
+  double branchAndBoundMean = 0;          ///< its mean error over that of `ml`; 0 where it gave none
+  double branchAndBoundMaximum = 0;
+  double branchAndBoundTrueMean = 0;  ///< the same of the calibrations' own errors
+  std::string message;
+};
+
+struct StudyResult
+{
+  StudyOptions options;
+  std::vector<StudyCameraResult> cameras;
+  std::vector<StudyClaim> claims;  ///< one a camera
+  bool wasStopped = false;
+  std::string status;   ///< "ok", "stopped"
+  std::string message;  ///< the verdict, for a person
+
+  bool isUsable() const { return status == "ok"; }
+};
+
+/// The paper's cameras in simulation: for each repetition and eye a capture of the ball, one of a board and a validation set, all with
+/// the noise of one tracker; every method on them.
+///
+/// Seeds are fixed: the same options give the same numbers, but for the branch and bound where its time limit ends it.
+/// @throws std::invalid_argument as StudyOptions::check(); std::runtime_error where a camera's features are not found in its pictures
+/// Thread-safe.
+[[nodiscard]] StudyResult runStudy(const StudyOptions& options);
+
+/// Judges a camera's results; see StudyClaim.
+[[nodiscard]] StudyClaim judgeClaim(const StudyCameraResult& result);
+
+}  // namespace handeye::study

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "HandEyeStudy.h"
+#include "NumberWords.h"
+
+#include <algorithm>
+
+namespace handeye::study
+{
+
+namespace
+{
+
+const MethodResult* find(const ComparisonResult& comparison, const std::string& name)
+{
+  const auto found = std::find_if(comparison.methods.begin(), comparison.methods.end(),
+    [&](const MethodResult& method) { return method.name == name && method.isUsable(); });
+  return found != comparison.methods.end() ? &*found : nullptr;
+}
+
+std::string ratioWords(double ratio)
+{
+  return fixedDigits(ratio, 2) + " times";
+}
+
+std::string describe(const StudyClaim& claim, const MethodResult& ours, const StudyCameraResult& result)
+{
+  std::string text = result.camera.name + ": point-to-line " + fixedDigits(ours.errorPx.mean, 2) + " px mean, " +
+    fixedDigits(ours.errorPx.maximum, 2) + " px at most, ";
+  text += claim.hasLowestMean && claim.hasLowestMaximum ? "both below every method with a board"
+    : claim.hasLowestMean                               ? "the mean below every method with a board, the maximum not"
+    : claim.hasLowestMaximum                            ? "the maximum below every method with a board, the mean not"
+                                                        : "above the best method with a board";
+  if (claim.branchAndBoundMean > 0)
+  {
+    text += "; branch and bound has " + ratioWords(claim.branchAndBoundMean) + " the mean and " +
+      ratioWords(claim.branchAndBoundMaximum) + " the maximum (" + ratioWords(claim.branchAndBoundTrueMean) +
+      " the mean without the noise of the validation)";
+  }
+  return text + ".";
+}
+
+}  // namespace
+
+StudyClaim judgeClaim(const StudyCameraResult& result)
+{
+  StudyClaim claim;
+  claim.camera = result.camera.name;
+  const MethodResult* ours = find(result.comparison, "ml");
+  if (ours == nullptr)
+  {
+    claim.message = result.camera.name + ": the point-to-line calibration gave no result.";
+    return claim;
+  }
+  claim.hasLowestMean = claim.hasLowestMaximum = true;
+  const MethodResult *leastMean = ours, *leastMaximum = ours;
+  for (const MethodResult& method : result.comparison.methods)
+  {
+    if (!method.isUsable())
+    {
+      continue;
+    }
+    const bool isRival = method.target == ComparedMethod::Target::Board;
+    claim.hasLowestMean = claim.hasLowestMean && !(isRival && method.errorPx.mean <= ours->errorPx.mean);
+    claim.hasLowestMaximum = claim.hasLowestMaximum && !(isRival && method.errorPx.maximum <= ours->errorPx.maximum);
+    leastMean = method.errorPx.mean < leastMean->errorPx.mean ? &method : leastMean;
+    leastMaximum = method.errorPx.maximum < leastMaximum->errorPx.maximum ? &method : leastMaximum;
+  }
+  claim.lowestMean = leastMean->name;
+  claim.lowestMaximum = leastMaximum->name;
+  const MethodResult* rival = find(result.comparison, "branch-and-bound");
+  const MethodResult *trueRival = find(result.truth, "branch-and-bound"), *trueOurs = find(result.truth, "ml");
+  if (rival != nullptr && trueRival != nullptr && trueOurs != nullptr && ours->errorPx.maximum > 0 && trueOurs->errorPx.mean > 0)
+  {
+    claim.branchAndBoundMean = rival->errorPx.mean / ours->errorPx.mean;
+    claim.branchAndBoundMaximum = rival->errorPx.maximum / ours->errorPx.maximum;
+    claim.branchAndBoundTrueMean = trueRival->errorPx.mean / trueOurs->errorPx.mean;
+  }
+  claim.message = describe(claim, *ours, result);
+  return claim;
+}
+
+}  // namespace handeye::study

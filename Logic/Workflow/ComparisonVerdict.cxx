@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MethodComparison.h"
+#include "NumberWords.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace handeye
+{
+
+namespace
+{
+
+/// The errors by capture and sample, for pairing two methods.
+std::map<std::pair<int, int>, double> errorsOf(const MethodResult& method)
+{
+  std::map<std::pair<int, int>, double> errors;
+  for (std::size_t capture = 0; capture < method.captures.size(); ++capture)
+  {
+    const std::vector<HandEyeValidationSample>& samples = method.captures[capture].validation.samples;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+    {
+      if (samples[i].status == CameraModel::Status::Ok)
+      {
+        errors[{ int(capture), int(i) }] = samples[i].errorPx;
+      }
+    }
+  }
+  return errors;
+}
+
+/// How far (px) another capture would have moved the method's calibration, where that is known.
+double expectedShift(const MethodResult& method)
+{
+  const Repeatability& spread = method.repeatability;
+  const double oneCapture = spread.areHalves ? spread.projectionPx / std::sqrt(2.0) : spread.projectionPx;
+  return spread.calibrations > 1 ? oneCapture / std::sqrt(std::max(1.0, double(method.usableCount()))) : 0;
+}
+
+/// Whether the mean of the paired differences is within twice its standard error. The errors of one calibration go together, so the
+/// capture is the unit from 5 captures on; below that the samples are, and a difference must exceed what another capture would have
+/// changed as well.
+bool areAlike(const MethodResult& a, const MethodResult& b)
+{
+  std::map<int, std::vector<double>> byCapture;
+  const auto ofB = errorsOf(b);
+  for (const auto& [key, error] : errorsOf(a))
+  {
+    const auto other = ofB.find(key);
+    if (other != ofB.end())
+    {
+      byCapture[key.first].push_back(other->second - error);
+    }
+  }
+  std::vector<double> differences;
+  for (const auto& [capture, values] : byCapture)
+  {
+    if (byCapture.size() >= 5)
+    {
+      differences.push_back(summarize(values).mean);
+    }
+    else
+    {
+      differences.insert(differences.end(), values.begin(), values.end());
+    }
+  }
+  if (differences.size() < 2)
+  {
+    return true;
+  }
+  const Summary summary = summarize(differences);
+  const double noise = 2 * summary.standardDeviation / std::sqrt(double(summary.count));
+  return std::abs(summary.mean) <= std::max(noise, byCapture.size() >= 5 ? 0.0 : expectedShift(a));
+}
+
+std::string errorWords(const MethodResult& method)
+{
+  return fixedDigits(method.errorPx.mean, 2) + " px mean, " + fixedDigits(method.errorPx.maximum, 2) + " px at most";
+}
+
+/// The best method of a target, in the order of the ranking; null where there is none.
+const MethodResult* bestOf(const ComparisonResult& result, ComparedMethod::Target target)
+{
+  for (const int index : result.ranking)
+  {
+    if (result.methods[std::size_t(index)].target == target)
+    {
+      return &result.methods[std::size_t(index)];
+    }
+  }
+  return nullptr;
+}
+
+std::string describeRivals(const ComparisonResult& result)
+{
+  std::string names;
+  for (const int index : result.notToldApart)
+  {
+    names += (names.empty() ? "" : ", ") + result.methods[std::size_t(index)].name;
+  }
+  return names.empty() ? std::string() : " Not told apart from it by these data: " + names + ".";
+}
+
+std::string describeFailures(const ComparisonResult& result)
+{
+  std::string names;
+  int count = 0;
+  for (const MethodResult& method : result.methods)
+  {
+    if (!method.isUsable())
+    {
+      names += (names.empty() ? "" : ", ") + method.name + " (" + method.status + ")";
+      ++count;
+    }
+  }
+  return count == 0 ? std::string()
+                    : " " + std::to_string(count) + (count == 1 ? " method" : " methods") + " gave no calibration: " + names + ".";
+}
+
+std::string describe(const ComparisonResult& result)
+{
+  const MethodResult& best = result.methods[std::size_t(result.ranking.front())];
+  std::string text = "The lowest mean projection error has " + best.name + " (" + best.title + "): " + errorWords(best) +
+    ", over " + std::to_string(best.errorPx.count) + " validation samples.";
+  text += describeRivals(result);
+  const auto other = best.target == ComparedMethod::Target::Ball ? ComparedMethod::Target::Board : ComparedMethod::Target::Ball;
+  if (const MethodResult* second = bestOf(result, other))
+  {
+    text += std::string(" The best of the methods with a ") + toString(other) + " is " + second->name + ": " + errorWords(*second) +
+      ", " + fixedDigits(second->errorPx.mean / best.errorPx.mean, 1) + " times the mean.";
+  }
+  return text + describeFailures(result);
+}
+
+}  // namespace
+
+int MethodResult::usableCount() const
+{
+  return int(
+    std::count_if(captures.begin(), captures.end(), [](const ComparedCapture& capture) { return capture.answer.isUsable(); }));
+}
+
+double MethodResult::medianSeconds() const
+{
+  std::vector<double> seconds;
+  for (const ComparedCapture& capture : captures)
+  {
+    seconds.push_back(capture.answer.seconds);
+  }
+  return seconds.empty() ? 0 : median(seconds);
+}
+
+void summarizeMethod(MethodResult& method)
+{
+  std::vector<double> errors;
+  const MethodAnswer* failure = nullptr;
+  for (const ComparedCapture& capture : method.captures)
+  {
+    failure = failure == nullptr && !capture.answer.isUsable() ? &capture.answer : failure;
+    for (const HandEyeValidationSample& sample : capture.validation.samples)
+    {
+      if (sample.status == CameraModel::Status::Ok)
+      {
+        errors.push_back(sample.errorPx);
+      }
+    }
+  }
+  method.errorPx = summarize(errors);
+  const int usable = method.usableCount(), total = int(method.captures.size());
+  if (usable == 0)
+  {
+    method.status = failure == nullptr ? "no_capture" : failure->status;
+    method.message = failure == nullptr ? "there is no capture for it" : failure->message;
+    return;
+  }
+  method.status = errors.empty() ? "not_in_view" : "ok";
+  method.message = errors.empty() ? "its calibrations put no ball of the validation set into view"
+    : failure != nullptr          ? std::to_string(total - usable) + " of " + std::to_string(total) +
+      " captures failed, the first: " + failure->status + ", " + failure->message
+                         : method.captures.front().answer.message;
+}
+
+void judgeComparison(ComparisonResult& result)
+{
+  result.ranking.clear();
+  result.notToldApart.clear();
+  for (std::size_t i = 0; i < result.methods.size(); ++i)
+  {
+    if (result.methods[i].isUsable())
+    {
+      result.ranking.push_back(int(i));
+    }
+  }
+  const auto mean = [&](int index) { return result.methods[std::size_t(index)].errorPx.mean; };
+  std::stable_sort(result.ranking.begin(), result.ranking.end(), [&](int a, int b) { return mean(a) < mean(b); });
+  for (std::size_t i = 1; i < result.ranking.size(); ++i)
+  {
+    const MethodResult& best = result.methods[std::size_t(result.ranking.front())];
+    if (areAlike(best, result.methods[std::size_t(result.ranking[i])]))
+    {
+      result.notToldApart.push_back(result.ranking[i]);
+    }
+  }
+  if (result.wasStopped)
+  {
+    result.status = "stopped";
+    result.message = "stopped before all methods were compared";
+  }
+  else if (result.validationCount == 0)
+  {
+    result.status = "no_validation";
+    result.message = "the ball was found and tracked in no frame of the validation: nothing can be compared";
+  }
+  else if (result.ranking.empty())
+  {
+    result.status = "no_method";
+    result.message = "No method gave a calibration." + describeFailures(result);
+  }
+  else
+  {
+    result.status = "ok";
+    result.message = describe(result);
+  }
+}
+
+}  // namespace handeye

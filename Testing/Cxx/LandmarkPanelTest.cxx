@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LandmarkPanel.h"
+
+#include "WidgetTestSupport.h"
+
+#include <QCheckBox>
+#include <QFile>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTableWidget>
+#include <QTemporaryDir>
+
+#include <cmath>
+#include <stdexcept>
+
+using namespace handeye;
+
+namespace
+{
+
+const char* const LandmarkFile = HANDEYE_RESOURCES_DIR "/Meshes/VertebraLandmarks.txt";
+
+/// Where the phantom's marker would say the landmarks are.
+Eigen::Isometry3d modelToPhantom()
+{
+  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
+  transform.linear() = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  transform.translation() = Eigen::Vector3d(40, -25, 110);
+  return transform;
+}
+
+/// What an engine does: registers whenever the pairs are others.
+void connectRegistration(LandmarkPanel& panel)
+{
+  QObject::connect(&panel, &LandmarkPanel::pairsChanged, &panel,
+    [&panel]
+    {
+      const LandmarkPanel::Pairs pairs = panel.pairs();
+      panel.setResult(pairs.landmarks.size() >= 3
+          ? std::optional<LandmarkRegistrationResult>(registerLandmarks(pairs.points_Model, pairs.points_Phantom))
+          : std::nullopt);
+    });
+}
+
+QString verdictOf(const LandmarkPanel& panel)
+{
+  return panel.findChild<QLabel*>(QStringLiteral("verdictLabel"))->text();
+}
+
+QPushButton* button(const LandmarkPanel& panel, const char* name)
+{
+  return panel.findChild<QPushButton*>(QString::fromLatin1(name));
+}
+
+QString cell(const LandmarkPanel& panel, int row, int column)
+{
+  return panel.findChild<QTableWidget*>()->item(row, column)->text();
+}
+
+void touchAll(LandmarkPanel& panel)
+{
+  while (panel.currentLandmark() >= 0)
+  {
+    panel.setTouched(modelToPhantom() * panel.landmarks()[panel.currentLandmark()].point_Model);
+  }
+}
+
+}  // namespace
+
+class LandmarkPanelTest : public QObject
+{
+  Q_OBJECT
+
+private slots:
+  void TheLandmarks_ComeWithTheirNames()
+  {
+    LandmarkPanel panel;
+    QVERIFY(panel.loadModelLandmarks(QString::fromLatin1(LandmarkFile)));
+    QCOMPARE(panel.landmarks().size(), 6);
+    QCOMPARE(cell(panel, 0, 1), QStringLiteral("tip of the spinous process"));
+    QCOMPARE(panel.currentLandmark(), 0);
+    QVERIFY(!button(panel, "touchButton")->isEnabled());  // no tip yet
+  }
+
+  void AWrongFile_IsRefusedInWords_AndWhatWasThereStays()
+  {
+    QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("bad.txt"));
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("1 2 3\n4 5\n");
+    file.close();
+    LandmarkPanel panel;
+    QVERIFY(panel.loadModelLandmarks(QString::fromLatin1(LandmarkFile)));
+    QVERIFY(!panel.loadModelLandmarks(path));
+    QVERIFY2(verdictOf(panel).contains(QStringLiteral("bad.txt")) && verdictOf(panel).contains(QStringLiteral("2")),
+      qPrintable(verdictOf(panel)));
+    QCOMPARE(panel.landmarks().size(), 6);
+    QVERIFY(!panel.loadModelLandmarks(folder.filePath(QStringLiteral("none.txt"))));
+    QVERIFY(verdictOf(panel).contains(QStringLiteral("none.txt")));
+  }
+
+  void TouchingOneAfterTheOther_RegistersThePhantom()
+  {
+    LandmarkPanel panel;
+    connectRegistration(panel);
+    panel.loadModelLandmarks(QString::fromLatin1(LandmarkFile));
+    panel.setTipAvailable(true);
+    testing_widgets::show(panel, { 520, 460 });
+    QSignalSpy requests(&panel, &LandmarkPanel::touchRequested);
+    for (int index = 0; index < 6; ++index)
+    {
+      QTest::mouseClick(button(panel, "touchButton"), Qt::LeftButton);
+      QCOMPARE(requests.count(), index + 1);
+      QCOMPARE(requests.last()[0].toInt(), index);
+      panel.setTouched(modelToPhantom() * panel.landmarks()[index].point_Model);
+      QCOMPARE(button(panel, "saveButton")->isEnabled(), index >= 2);
+    }
+    QCOMPARE(panel.currentLandmark(), -1);
+    QVERIFY(panel.result() && panel.result()->isUsable());
+    QVERIFY(panel.result()->modelToPhantom.isApprox(modelToPhantom(), 1e-9));
+    QVERIFY2(verdictOf(panel).contains(QStringLiteral("RMS 0.00\u00a0mm over 6 landmarks")), qPrintable(verdictOf(panel)));
+    QCOMPARE(cell(panel, 3, 2), QStringLiteral("touched"));
+    QCOMPARE(cell(panel, 3, 3), QStringLiteral("0.00"));
+  }
+
+  void ASlip_IsNamed_AndTheRedoMendsIt()
+  {
+    LandmarkPanel panel;
+    connectRegistration(panel);
+    panel.loadModelLandmarks(QString::fromLatin1(LandmarkFile));
+    panel.setTipAvailable(true);
+    touchAll(panel);
+    panel.setCurrentLandmark(4);
+    panel.setTouched(modelToPhantom() * panel.landmarks()[4].point_Model + Eigen::Vector3d(25, 0, 0));
+    QVERIFY(panel.result() && !panel.result()->isUsable());
+    QVERIFY(!button(panel, "saveButton")->isEnabled());
+    QCOMPARE(panel.result()->worst, 4);
+    QVERIFY(!panel.findChild<QTableWidget*>()->item(4, 3)->icon().isNull());
+    QVERIFY(panel.findChild<QTableWidget*>()->item(1, 3)->icon().isNull());
+    panel.setCurrentLandmark(4);
+    panel.redoCurrent();
+    QCOMPARE(panel.pairs().landmarks, (QVector<int>{ 0, 1, 2, 3, 5 }));
+    QVERIFY(panel.result()->isUsable());
+    panel.setTouched(modelToPhantom() * panel.landmarks()[4].point_Model);
+    QCOMPARE(panel.pairs().landmarks.size(), 6);
+    QVERIFY(panel.result()->isUsable());
+  }
+
+  void SkippedLandmarks_AreLeftOut_AndResidualsStayWithTheirs()
+  {
+    LandmarkPanel panel;
+    connectRegistration(panel);
+    panel.loadModelLandmarks(QString::fromLatin1(LandmarkFile));
+    panel.setTipAvailable(true);
+    panel.skipCurrent();
+    QCOMPARE(panel.currentLandmark(), 1);
+    touchAll(panel);
+    QCOMPARE(panel.pairs().landmarks, (QVector<int>{ 1, 2, 3, 4, 5 }));
+    QCOMPARE(cell(panel, 0, 2), QStringLiteral("skipped"));
+    QCOMPARE(cell(panel, 0, 3), QStringLiteral("\u2013"));
+    QCOMPARE(cell(panel, 5, 3), QStringLiteral("0.00"));
+    panel.setCurrentLandmark(0);
+    panel.skipCurrent();
+    QCOMPARE(panel.currentLandmark(), 0);
+    QVERIFY(!panel.landmarks()[0].skipped);
+  }
+
+  void HandsFree_TakesTheTipWhenItRestsElsewhere()
+  {
+    LandmarkPanel panel;
+    panel.loadModelLandmarks(QString::fromLatin1(LandmarkFile));
+    panel.setTipAvailable(true);
+    const Eigen::Vector3d first = modelToPhantom() * panel.landmarks()[0].point_Model;
+    const Eigen::Vector3d second = modelToPhantom() * panel.landmarks()[1].point_Model;
+    QVERIFY(!panel.offerTip(first));
+    QSignalSpy switched(&panel, &LandmarkPanel::handsFreeChanged);
+    panel.findChild<QCheckBox*>()->click();
+    QCOMPARE(switched.count(), 1);
+    QVERIFY(panel.offerTip(first));
+    // It still rests there: that is not the next landmark.
+    QVERIFY(!panel.offerTip(first + Eigen::Vector3d(0.5, 0, 0)));
+    QVERIFY(panel.offerTip(second));
+    QCOMPARE(panel.pairs().landmarks, (QVector<int>{ 0, 1 }));
+    panel.setTipAvailable(false, QStringLiteral("The phantom's marker is not seen"));
+    QVERIFY(!panel.offerTip(second + Eigen::Vector3d(30, 0, 0)));
+    QVERIFY(panel.findChild<QLabel*>(QStringLiteral("tipLabel"))->text().contains(QStringLiteral("marker is not seen")));
+  }
+
+  void TheKeyboard_TouchesAndTakesBack()
+  {
+    LandmarkPanel panel;
+    panel.loadModelLandmarks(QString::fromLatin1(LandmarkFile));
+    panel.setTipAvailable(true);
+    testing_widgets::show(panel, { 520, 460 });
+    auto* table = panel.findChild<QTableWidget*>();
+    table->setFocus();
+    QTRY_VERIFY(table->hasFocus());
+    QSignalSpy requests(&panel, &LandmarkPanel::touchRequested), changes(&panel, &LandmarkPanel::pairsChanged);
+    QTest::keyClick(table, Qt::Key_Space);
+    QCOMPARE(requests.count(), 1);
+    panel.setTouched(Eigen::Vector3d(1, 2, 3));
+    QTest::keyClick(table, Qt::Key_Up);
+    QCOMPARE(panel.currentLandmark(), 0);
+    QTest::keyClick(table, Qt::Key_Backspace);
+    QCOMPARE(changes.count(), 2);
+    QVERIFY(panel.pairs().landmarks.isEmpty());
+  }
+
+  void StartingOver_ForgetsWhatWasTouched()
+  {
+    LandmarkPanel panel;
+    connectRegistration(panel);
+    panel.loadModelLandmarks(QString::fromLatin1(LandmarkFile));
+    touchAll(panel);
+    QVERIFY(panel.result());
+    panel.clearTouched();
+    QVERIFY(panel.pairs().landmarks.isEmpty());
+    QVERIFY(!panel.result());
+    QCOMPARE(panel.landmarks().size(), 6);
+    QVERIFY(verdictOf(panel).contains(QStringLiteral("0 of at least 3")));
+    QVERIFY_EXCEPTION_THROWN(panel.setTouched(Eigen::Vector3d(NAN, 0, 0)), std::invalid_argument);
+  }
+};
+
+HANDEYE_WIDGET_TEST_MAIN(LandmarkPanelTest)
+#include "LandmarkPanelTest.moc"

@@ -1,0 +1,271 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MethodComparison.h"
+
+#include "ComparisonFiles.h"
+#include "GeometryMatchers.h"
+#include "Simulation.h"
+#include "TestCameras.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+using namespace handeye;
+using namespace handeye::test;
+
+namespace
+{
+
+/// A method whose answer is known: the truth, moved.
+ComparedMethod known(const std::string& name, const std::vector<Eigen::Isometry3d>& answers)
+{
+  ComparedMethod method;
+  method.name = name;
+  method.title = "known";
+  method.reference = "nobody";
+  method.sampleCounts = std::vector<int>(answers.size(), 15);
+  method.calibrate = [answers](int capture)
+  {
+    MethodAnswer answer;
+    answer.status = "ok";
+    answer.markerToCamera = answers.at(std::size_t(capture));
+    answer.sampleCount = answer.usedCount = 15;
+    return answer;
+  };
+  return method;
+}
+
+ComparedMethod failing(const std::string& name)
+{
+  ComparedMethod method = known(name, { Eigen::Isometry3d::Identity() });
+  method.calibrate = [](int)
+  {
+    MethodAnswer answer;
+    answer.status = "parallel_motions";
+    answer.message = "all motions turn about one axis";
+    return answer;
+  };
+  return method;
+}
+
+class MethodComparison : public testing::Test
+{
+protected:
+  MethodComparison()
+  {
+    // A long lens without distortion, balls on the axis' plane at one depth: 1 mm sideways is fx / 300 px everywhere.
+    for (int i = 0; i < 12; ++i)
+    {
+      HandEyeSample sample;
+      sample.frame = 10 + i;
+      const Eigen::Vector3d ball_Camera(-50 + 9 * i, 4 * i - 20, 300);
+      sample.tip_Marker = truth.inverse() * ball_Camera;
+      sample.ball_Image = camera.project(ball_Camera).point_Image;
+      sample.ray_Eye = ball_Camera.normalized();
+      validation.push_back(sample);
+    }
+  }
+
+  Eigen::Isometry3d moved(double mm) const { return makeRigid({ 0, 0, 0 }, { mm, 0, 0 }) * truth; }
+
+  const CameraModel camera = makeCamera(640, 480, 600, 600, 320, 240, {});
+  const Eigen::Isometry3d truth = typicalMarkerToCamera();
+  std::vector<HandEyeSample> validation;
+};
+
+}  // namespace
+
+TEST_F(MethodComparison, KnownErrors_AreSummarised)
+{
+  const ComparisonResult result = compareMethods({ known("off", { moved(1) }), known("true", { truth }) }, validation, camera);
+  ASSERT_EQ(result.status, "ok");
+  const Summary& off = result.methods[0].errorPx;
+  EXPECT_EQ(off.count, 12);
+  EXPECT_NEAR(off.mean, 2, 1e-9);
+  EXPECT_NEAR(off.minimum, 2, 1e-9);
+  EXPECT_NEAR(off.maximum, 2, 1e-9);
+  EXPECT_NEAR(off.rms, 2, 1e-9);
+  EXPECT_NEAR(off.standardDeviation, 0, 1e-9);
+  EXPECT_NEAR(result.methods[1].errorPx.maximum, 0, 1e-9);
+  EXPECT_EQ(result.ranking, (std::vector<int>{ 1, 0 }));
+  EXPECT_NE(result.message.find("true"), std::string::npos);
+}
+
+TEST_F(MethodComparison, SeveralCaptures_ArePooled)
+{
+  const ComparisonResult result = compareMethods({ known("pooled", { moved(1), moved(-3) }) }, validation, camera);
+  const Summary& error = result.methods[0].errorPx;
+  EXPECT_EQ(error.count, 24);
+  EXPECT_NEAR(error.mean, 4, 1e-9);
+  EXPECT_NEAR(error.minimum, 2, 1e-9);
+  EXPECT_NEAR(error.maximum, 6, 1e-9);
+  EXPECT_NEAR(error.rms, std::sqrt(20.0), 1e-9);
+}
+
+TEST_F(MethodComparison, Repeatability_IsTheSpreadAboutTheMean)
+{
+  const ComparisonResult result = compareMethods({ known("repeated", { moved(1), moved(-1), moved(0) }) }, validation, camera);
+  const Repeatability& spread = result.methods[0].repeatability;
+  EXPECT_FALSE(spread.areHalves);
+  EXPECT_EQ(spread.calibrations, 3);
+  EXPECT_NEAR(spread.translationMm, 1, 1e-9) << "sqrt((1 + 1 + 0) / 2)";
+  EXPECT_NEAR(spread.projectionPx, 2, 1e-9);
+  EXPECT_NEAR(spread.worstPx, 2, 1e-9);
+  EXPECT_NEAR(spread.rotationDeg, 0, 1e-6);
+}
+
+TEST_F(MethodComparison, Repeatability_OfRotations)
+{
+  const auto turned = [&](double degrees) { return makeRigid({ 0, 0, degrees * double(EIGEN_PI) / 180 }, { 0, 0, 0 }) * truth; };
+  const ComparisonResult result = compareMethods({ known("turned", { turned(2), turned(-2) }) }, validation, camera);
+  EXPECT_NEAR(result.methods[0].repeatability.rotationDeg, 2 * std::sqrt(2.0), 1e-9) << "two about their mean, n - 1";
+}
+
+TEST_F(MethodComparison, FailedMethod_IsARowThatSaysWhy)
+{
+  const ComparisonResult result = compareMethods({ failing("classical"), known("true", { truth }) }, validation, camera);
+  ASSERT_EQ(result.methods.size(), 2U);
+  EXPECT_EQ(result.methods[0].status, "parallel_motions");
+  EXPECT_EQ(result.methods[0].message, "all motions turn about one axis");
+  EXPECT_EQ(result.methods[0].errorPx.count, 0);
+  EXPECT_EQ(result.ranking, (std::vector<int>{ 1 }));
+  EXPECT_NE(result.message.find("classical (parallel_motions)"), std::string::npos) << result.message;
+  const nlohmann::json json = comparisonJson(result);
+  EXPECT_FALSE(json["methods"][0].contains("projectionErrorPx"));
+  EXPECT_FALSE(json["methods"][0]["captures"][0].contains("markerToCamera"));
+  EXPECT_NE(methodsCsv(result).find("classical,ball,parallel_motions,,,,,,0,0,1,"), std::string::npos) << methodsCsv(result);
+}
+
+TEST_F(MethodComparison, NothingWorks_IsNoResult)
+{
+  const ComparisonResult none = compareMethods({ failing("a") }, validation, camera);
+  EXPECT_EQ(none.status, "no_method");
+  EXPECT_FALSE(none.isUsable());
+  const ComparisonResult blind = compareMethods({ known("true", { truth }) }, {}, camera);
+  EXPECT_EQ(blind.status, "no_validation");
+}
+
+TEST_F(MethodComparison, CalibrationThatSeesNothing_IsNotRanked)
+{
+  const Eigen::Isometry3d behind = makeRigid({ 0, double(EIGEN_PI), 0 }, { 0, 0, 0 }) * truth;
+  const ComparisonResult result = compareMethods({ known("behind", { behind }), known("true", { truth }) }, validation, camera);
+  EXPECT_EQ(result.methods[0].status, "not_in_view");
+  EXPECT_EQ(result.ranking, (std::vector<int>{ 1 }));
+}
+
+TEST_F(MethodComparison, DifferenceWithinTheNoise_IsNotToldApart)
+{
+  // Errors of both change from sample to sample by more than they differ on average.
+  std::vector<HandEyeSample> noisy = validation;
+  Random random(4);
+  for (HandEyeSample& sample : noisy)
+  {
+    sample.ball_Image += random.normal3(2).head<2>();
+  }
+  const ComparisonResult alike =
+    compareMethods({ known("a", { moved(0.05) }), known("b", { truth }), known("far", { moved(8) }) }, noisy, camera);
+  ASSERT_EQ(alike.ranking.size(), 3U);
+  ASSERT_EQ(alike.notToldApart.size(), 1U);
+  EXPECT_EQ(alike.notToldApart[0], alike.ranking[1]);
+  EXPECT_EQ(alike.ranking[2], 2);
+}
+
+TEST_F(MethodComparison, Subsets_HaveTheSizesAndSeedsAskedFor)
+{
+  std::vector<std::vector<int>> drawn;
+  ComparedMethod method = known("subsets", { truth });
+  method.subsetPool = 7;
+  method.calibrateSome = [&](const std::vector<int>& samples)
+  {
+    drawn.push_back(samples);
+    MethodAnswer answer;
+    answer.status = samples.size() < 4 ? "too_few_samples" : "ok";
+    if (samples.size() >= 4)
+    {
+      answer.markerToCamera = moved(0.1 * double(samples.size()));
+    }
+    return answer;
+  };
+  ComparisonOptions options;
+  options.subsetRepetitions = 9;
+  options.halvings = 2;
+  const ComparisonResult result = compareMethods({ method }, validation, camera, options);
+  const std::vector<SubsetErrors>& subsets = result.methods[0].subsets;
+  ASSERT_EQ(subsets.size(), 5U) << "3 to 7";
+  EXPECT_EQ(subsets[0].usable, 0);
+  EXPECT_EQ(subsets[1].usable, 9);
+  EXPECT_NEAR(subsets[1].medianPx, 0.8, 1e-9);
+  EXPECT_NEAR(subsets[4].medianPx, 1.4, 1e-9);
+  ASSERT_EQ(drawn.size(), 5U * 9 + 4);
+  for (const std::vector<int>& samples : drawn)
+  {
+    const std::set<int> different(samples.begin(), samples.end());
+    EXPECT_EQ(different.size(), samples.size());
+    EXPECT_GE(*different.begin(), 0);
+    EXPECT_LT(*different.rbegin(), 7);
+  }
+  for (std::size_t half = 45; half < drawn.size(); half += 2)
+  {
+    std::set<int> both(drawn[half].begin(), drawn[half].end());
+    both.insert(drawn[half + 1].begin(), drawn[half + 1].end());
+    EXPECT_EQ(both.size(), 7U) << "halves share nothing and leave nothing out";
+  }
+  const auto first = drawn;
+  drawn.clear();
+  (void)compareMethods({ method }, validation, camera, options);
+  EXPECT_EQ(drawn, first) << "fixed seeds";
+  drawn.clear();
+  options.seed = 2;
+  (void)compareMethods({ method }, validation, camera, options);
+  EXPECT_NE(drawn, first);
+}
+
+TEST_F(MethodComparison, Stopped_SaysSo)
+{
+  ComparisonOptions options;
+  int told = 0;
+  options.progress = [&](const std::string&, int done, int total)
+  {
+    EXPECT_LE(done, total);
+    return ++told < 2;
+  };
+  const ComparisonResult result =
+    compareMethods({ known("a", { truth }), known("b", { truth }), known("c", { truth }) }, validation, camera, options);
+  EXPECT_TRUE(result.wasStopped);
+  EXPECT_EQ(result.status, "stopped");
+  EXPECT_EQ(told, 2);
+}
+
+TEST_F(MethodComparison, Progress_ReachesItsEnd)
+{
+  ComparisonOptions options;
+  std::pair<int, int> last;
+  options.progress = [&](const std::string&, int done, int total)
+  {
+    last = { done, total };
+    return true;
+  };
+  (void)compareMethods({ known("a", { truth, truth }), failing("b") }, validation, camera, options);
+  EXPECT_GT(last.second, 0);
+  EXPECT_EQ(last.first, last.second);
+}
+
+TEST_F(MethodComparison, OptionsThatMakeNoSense_AreRefused)
+{
+  ComparisonOptions options;
+  options.mostSamples = 2;
+  EXPECT_THROW((void)compareMethods({}, validation, camera, options), std::invalid_argument);
+  options = {};
+  options.subsetRepetitions = -1;
+  EXPECT_THROW((void)compareMethods({}, validation, camera, options), std::invalid_argument);
+}
+
+TEST_F(MethodComparison, ErrorsCsv_HasALineASample)
+{
+  const ComparisonResult result = compareMethods({ known("a,\"b\"", { moved(1) }) }, validation, camera);
+  const std::string csv = errorsCsv(result, validation);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 13);
+  EXPECT_NE(csv.find("\"a,\"\"b\"\"\",0,10,ok,"), std::string::npos) << csv;
+  EXPECT_EQ(csv.find("nan"), std::string::npos);
+}
