@@ -184,7 +184,10 @@ void CaptureTask::openFolder(const QString& folder)
       {
         documents[name] = work.session->document(name).value_or(nlohmann::json());
       }
-      for (const nlohmann::json& id : documents[DeletedDocument].value("samples", nlohmann::json::array()))
+      const auto deleted = documents.find(DeletedDocument);
+      const nlohmann::json ids =
+        deleted != documents.end() && deleted->second.is_object() ? deleted->second.value("samples", nlohmann::json()) : nlohmann::json();
+      for (const nlohmann::json& id : ids)
       {
         work.deleted.insert(id.is_number_integer() ? id.get<int>() : -1);
       }

@@ -224,6 +224,12 @@ void CoverageView::paintBand(QPainter& painter, int band) const
       }
     }
   }
+  this->paintMarks(painter, band, grid);
+}
+
+/// The next place, where the ball is, and the keyboard's field.
+void CoverageView::paintMarks(QPainter& painter, int band, const QRectF& grid) const
+{
   if (next_ && this->fieldOf(*next_).band == band)
   {
     const QColor color = seriesColor(1, this->palette());
@@ -247,7 +253,7 @@ void CoverageView::paintBand(QPainter& painter, int band) const
     const QPointF at(
       grid.left() + std::clamp(share.x(), 0.0, 1.0) * grid.width(), grid.top() + std::clamp(share.y(), 0.0, 1.0) * grid.height());
     painter.setBrush(Qt::NoBrush);
-    painter.setPen(QPen(ground, 4));
+    painter.setPen(QPen(this->palette().color(QPalette::Base), 4));
     painter.drawEllipse(at, 5, 5);
     painter.setPen(QPen(seriesColor(0, this->palette()), 2));
     painter.drawEllipse(at, 5, 5);

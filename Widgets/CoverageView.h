@@ -69,6 +69,7 @@ protected:
 
 private:
   void paintBand(QPainter& painter, int band) const;
+  void paintMarks(QPainter& painter, int band, const QRectF& grid) const;
   std::optional<Field> fieldAt(const QPointF& point_Widget) const;
   void updateAccessibility();
 

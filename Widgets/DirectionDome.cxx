@@ -169,29 +169,30 @@ void DirectionDome::paintEvent(QPaintEvent*)
 {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
+  this->paintCells(painter);
+  this->paintCounts(painter);
+  this->paintDirection(painter);
+  this->paintWords(painter, this->domeRectangle().bottom() + 6);
+}
+
+void DirectionDome::paintCells(QPainter& painter) const
+{
   const QRectF dome = this->domeRectangle();
-  const double radius = dome.width() / 2;
   const QColor ground = this->palette().color(QPalette::Base);
-  const QColor text = this->palette().color(QPalette::Text);
   const QColor full = levelColor(Level::Good, this->palette());
-  const bool dark = isDark(this->palette());
+  const auto mixed = [&](double strength)
+  {
+    return QColor::fromRgbF(ground.redF() + (full.redF() - ground.redF()) * strength,
+      ground.greenF() + (full.greenF() - ground.greenF()) * strength, ground.blueF() + (full.blueF() - ground.blueF()) * strength);
+  };
+  painter.setPen(QPen(this->palette().color(QPalette::Mid), 1.2));
   // Outer rings first; each covers the inside of the one before.
   for (int cell = cellCount() - 1; cell >= 0; --cell)
   {
-    const int ring = ringOf(cell);
-    const double outer = radius * (ring + 1) / 3;
+    const double outer = dome.width() / 2 * (ringOf(cell) + 1) / 3;
     const QRectF circle(dome.center() - QPointF(outer, outer), QSizeF(2 * outer, 2 * outer));
     const double share = std::min(1.0, poses_[std::size_t(cell)] / double(target_));
-    QColor fill = ground;
-    if (share > 0)
-    {
-      const double strength = (dark ? 0.18 : 0.15) + 0.35 * share;
-      fill = QColor::fromRgbF(ground.redF() + (full.redF() - ground.redF()) * strength,
-        ground.greenF() + (full.greenF() - ground.greenF()) * strength,
-        ground.blueF() + (full.blueF() - ground.blueF()) * strength);
-    }
-    painter.setBrush(fill);
-    painter.setPen(QPen(this->palette().color(QPalette::Mid), 1.2));
+    painter.setBrush(share > 0 ? mixed(0.16 + 0.36 * share) : ground);
     if (cell == 0)
     {
       painter.drawEllipse(circle);
@@ -201,33 +202,43 @@ void DirectionDome::paintEvent(QPaintEvent*)
       painter.drawPie(circle, int(std::lround(16 * (sectorStartDeg(cell) + viewAngleDeg_))), int(16 * SectorDeg));
     }
   }
+}
+
+void DirectionDome::paintCounts(QPainter& painter) const
+{
   QFont font = this->font();
-  font.setPointSizeF(std::max(6.5, font.pointSizeF() * std::min(1.0, dome.width() / 240)));
+  font.setPointSizeF(std::max(6.5, font.pointSizeF() * std::min(1.0, this->domeRectangle().width() / 240)));
   painter.setFont(font);
+  painter.setPen(this->palette().color(QPalette::Text));
   for (int cell = 0; cell < cellCount(); ++cell)
   {
     const int poses = poses_[std::size_t(cell)];
-    const QPointF center = this->cellCenter(cell);
-    const QRectF box(center - QPointF(30, 12), QSizeF(60, 24));
-    painter.setPen(text);
+    const QRectF box(this->cellCenter(cell) - QPointF(30, 12), QSizeF(60, 24));
     // A full cell has a tick: colour is not all that says so.
-    const QString word = poses >= target_ ? QString(QChar(0x2713)) : poses > 0 ? QString::number(poses) : QStringLiteral("·");
-    painter.drawText(box, Qt::AlignCenter, word);
+    const QChar sign = poses >= target_ ? QChar(0x2713) : QChar(0x00b7);
+    painter.drawText(box, Qt::AlignCenter, poses > 0 && poses < target_ ? QString::number(poses) : QString(sign));
   }
-  if (direction_Dome_)
+}
+
+void DirectionDome::paintDirection(QPainter& painter) const
+{
+  if (!direction_Dome_)
   {
-    const double lean = std::min(1.0, std::hypot(direction_Dome_->x(), direction_Dome_->y()));
-    const double heading = std::atan2(direction_Dome_->y(), direction_Dome_->x()) * 180 / M_PI + viewAngleDeg_;
-    const QPointF tip = polar(dome.center(), radius * lean, heading);
-    painter.setPen(QPen(ground, 5));
-    painter.drawLine(dome.center(), tip);
-    painter.setPen(QPen(seriesColor(0, this->palette()), 2.5));
-    painter.drawLine(dome.center(), tip);
-    painter.setBrush(seriesColor(0, this->palette()));
-    painter.setPen(QPen(ground, 1.5));
-    painter.drawEllipse(tip, 6, 6);
+    return;
   }
-  this->paintWords(painter, dome.bottom() + 6);
+  const QRectF dome = this->domeRectangle();
+  const QColor ground = this->palette().color(QPalette::Base);
+  const QColor color = seriesColor(0, this->palette());
+  const double lean = std::min(1.0, std::hypot(direction_Dome_->x(), direction_Dome_->y()));
+  const double heading = std::atan2(direction_Dome_->y(), direction_Dome_->x()) * 180 / M_PI + viewAngleDeg_;
+  const QPointF tip = polar(dome.center(), dome.width() / 2 * lean, heading);
+  painter.setPen(QPen(ground, 5));
+  painter.drawLine(dome.center(), tip);
+  painter.setPen(QPen(color, 2.5));
+  painter.drawLine(dome.center(), tip);
+  painter.setBrush(color);
+  painter.setPen(QPen(ground, 1.5));
+  painter.drawEllipse(tip, 6, 6);
 }
 
 void DirectionDome::paintWords(QPainter& painter, double top) const

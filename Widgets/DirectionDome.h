@@ -57,6 +57,9 @@ protected:
 
 private:
   QRectF domeRectangle() const;
+  void paintCells(QPainter& painter) const;
+  void paintCounts(QPainter& painter) const;
+  void paintDirection(QPainter& painter) const;
   void paintWords(QPainter& painter, double top) const;
   QString describe(int cell) const;
   void updateAccessibility();

@@ -13,6 +13,7 @@
 #include <QFileInfo>
 #include <QUrl>
 
+#include <algorithm>
 #include <vector>
 
 namespace handeye
@@ -44,6 +45,7 @@ public:
   }
 
   void addFormats();
+  void arrangeFormats();
   void updateButtons();
   void showMessage(const QString& text, Level level);
   bool exportOne(const ExportFormat& format, const QDir& target, QStringList& problems, QStringList& warnings);
@@ -56,11 +58,11 @@ public:
   ExportSources sources;
   QStringList written;
   bool reportEnabled = false;
+  int columns = 0;
 };
 
 void ExportPanel::Private::addFormats()
 {
-  int index = 0;
   for (const ExportFormat& format : exportFormats())
   {
     // Names of programs and formats are not translated.
@@ -68,11 +70,38 @@ void ExportPanel::Private::addFormats()
     box->setToolTip(ExportPanel::tr("Writes %1").arg(QString::fromStdString(format.fileName)) +
       (format.isOneCamera ? QString() : ExportPanel::tr("; with the stylus, the phantom and both eyes where they are known")));
     box->setChecked(true);
-    ui.formatsLayout->addWidget(box, index / 2, index % 2);
+    // The columns follow from the width, not the other way round.
+    box->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     connect(box, &QCheckBox::toggled, &q, [this] { this->updateButtons(); });
     boxes.push_back(box);
-    ++index;
   }
+  this->arrangeFormats();
+}
+
+/// In two columns where they have room, else in one.
+void ExportPanel::Private::arrangeFormats()
+{
+  int widest = 0;
+  for (const QCheckBox* box : boxes)
+  {
+    widest = std::max(widest, box->sizeHint().width());
+  }
+  const int wanted = ui.formatsBox->contentsRect().width() >= 2 * widest + 36 ? 2 : 1;
+  if (wanted == columns)
+  {
+    return;
+  }
+  columns = wanted;
+  for (std::size_t index = 0; index < boxes.size(); ++index)
+  {
+    ui.formatsLayout->removeWidget(boxes[index]);
+  }
+  for (std::size_t index = 0; index < boxes.size(); ++index)
+  {
+    ui.formatsLayout->addWidget(boxes[index], int(index) / columns, int(index) % columns);
+  }
+  ui.formatsLayout->setColumnStretch(0, 1);
+  ui.formatsLayout->setColumnStretch(1, columns == 2 ? 1 : 0);
 }
 
 void ExportPanel::Private::updateButtons()
@@ -158,6 +187,12 @@ ExportPanel::ExportPanel(QWidget* parent)
 }
 
 ExportPanel::~ExportPanel() = default;
+
+void ExportPanel::resizeEvent(QResizeEvent* event)
+{
+  QWidget::resizeEvent(event);
+  d->arrangeFormats();
+}
 
 void ExportPanel::setSources(const ExportSources& sources)
 {

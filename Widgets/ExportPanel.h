@@ -52,6 +52,9 @@ signals:
   /// "Report" was pressed, to be written into this folder.
   void reportRequested(QString folder);
 
+protected:
+  void resizeEvent(QResizeEvent* event) override;
+
 private:
   class Private;
   std::unique_ptr<Private> d;

@@ -66,9 +66,10 @@ HandEyeCalibrationPanel::Private::Private(
   , workbench(std::make_unique<HandEyeWorkbench>(logic))
 {
   auto* layout = new QVBoxLayout(&q);
-  layout->setContentsMargins(host ? 4 : 0, host ? 4 : 0, host ? 4 : 0, host ? 4 : 0);
+  layout->setContentsMargins(0, 0, 0, 0);
   wizard = new QWidget;
   ui.setupUi(wizard);
+  wizard->layout()->setContentsMargins(6, 6, 6, 6);
   steps = new WizardStepBar(ui.stepBar);
   ui.stepBarLayout->addWidget(steps, 0, 0);
   ui.progressBox->hide();

@@ -5,6 +5,7 @@
 #include "CameraModel.h"
 #include "EigenVtk.h"
 #include "HandEyeSceneGeometry.h"
+#include "HandEyeSceneParts.h"
 
 #include <vtkActor.h>
 #include <vtkDoubleArray.h>
@@ -48,92 +49,6 @@ void check(const std::optional<Eigen::Isometry3d>& pose, const char* what)
   }
 }
 
-/// One thing of the scene.
-struct Prop
-{
-  vtkNew<vtkPolyDataMapper> mapper;
-  vtkNew<vtkActor> actor;
-
-  Prop(double red, double green, double blue)
-  {
-    mapper->ScalarVisibilityOff();
-    actor->SetMapper(mapper);
-    actor->GetProperty()->SetColor(red, green, blue);
-    actor->GetProperty()->SetAmbient(0.15);
-    actor->GetProperty()->SetDiffuse(0.85);
-    actor->GetProperty()->SetSpecular(0.2);
-    actor->GetProperty()->SetSpecularPower(20);
-    actor->VisibilityOff();
-  }
-
-  /// Hidden without a pose.
-  void place(const std::optional<Eigen::Isometry3d>& toTracker, bool wanted = true)
-  {
-    actor->SetVisibility(toTracker.has_value() && wanted);
-    if (toTracker)
-    {
-      vtkNew<vtkMatrix4x4> matrix;
-      toVtk(*toTracker, matrix);
-      actor->SetUserMatrix(matrix);
-    }
-  }
-};
-
-/// Many balls of one frame, each with its colour and radius.
-struct Balls
-{
-  vtkNew<vtkPolyData> data;
-  vtkNew<vtkGlyph3DMapper> mapper;
-  vtkNew<vtkActor> actor;
-
-  Balls()
-  {
-    mapper->SetInputData(data);
-    mapper->SetSourceData(unitBall());
-    mapper->SetScaleArray("radius");
-    mapper->SetScaleModeToScaleByMagnitude();
-    mapper->SetScalarModeToUsePointFieldData();
-    mapper->SelectColorArray("color");
-    mapper->SetColorModeToDirectScalars();
-    actor->SetMapper(mapper);
-    actor->GetProperty()->SetAmbient(0.25);
-    actor->VisibilityOff();
-  }
-
-  void clear()
-  {
-    vtkNew<vtkPoints> points;
-    vtkNew<vtkDoubleArray> radius;
-    radius->SetName("radius");
-    vtkNew<vtkUnsignedCharArray> color;
-    color->SetName("color");
-    color->SetNumberOfComponents(3);
-    data->Initialize();
-    data->SetPoints(points);
-    data->GetPointData()->AddArray(radius);
-    data->GetPointData()->AddArray(color);
-  }
-
-  void add(const Eigen::Vector3d& center, double radiusMm, const std::array<unsigned char, 3>& rgb)
-  {
-    data->GetPoints()->InsertNextPoint(center.data());
-    vtkDoubleArray::SafeDownCast(data->GetPointData()->GetArray("radius"))->InsertNextValue(radiusMm);
-    vtkUnsignedCharArray::SafeDownCast(data->GetPointData()->GetArray("color"))->InsertNextTypedTuple(rgb.data());
-  }
-
-  void place(const std::optional<Eigen::Isometry3d>& toTracker)
-  {
-    const bool any = data->GetNumberOfPoints() > 0;
-    actor->SetVisibility(toTracker.has_value() && any);
-    if (toTracker)
-    {
-      vtkNew<vtkMatrix4x4> matrix;
-      toVtk(*toTracker, matrix);
-      actor->SetUserMatrix(matrix);
-    }
-  }
-};
-
 /// Green, over amber, to red.
 std::array<unsigned char, 3> residualColor(double share)
 {
@@ -161,7 +76,7 @@ public:
   {
     tracker.mapper->SetInputData(trackerShape());
     tracker.place(Eigen::Isometry3d::Identity());
-    for (Prop* marker : { &cameraMarker, &stylusMarker, &phantomMarker })
+    for (HandEyeSceneProp* marker : { &cameraMarker, &stylusMarker, &phantomMarker })
     {
       marker->mapper->SetInputData(markerShape());
     }
@@ -185,7 +100,8 @@ public:
   std::vector<vtkProp*> props()
   {
     std::vector<vtkProp*> all = { captured.actor, touched.actor };
-    for (Prop* prop : { &tracker, &cameraMarker, &camera, &frustum, &stylusMarker, &shaft, &ball, &phantomMarker, &phantom, &next })
+    for (HandEyeSceneProp* prop :
+      { &tracker, &cameraMarker, &camera, &frustum, &stylusMarker, &shaft, &ball, &phantomMarker, &phantom, &next })
     {
       all.push_back(prop->actor);
     }
@@ -197,11 +113,11 @@ public:
   void placePhantom();
   void colorPoints();
 
-  Prop tracker{ 0.55, 0.58, 0.62 };
-  Prop cameraMarker{ 0.72, 0.74, 0.78 }, camera{ 0.23, 0.43, 0.65 }, frustum{ 0.3, 0.6, 0.95 };
-  Prop stylusMarker{ 0.72, 0.74, 0.78 }, shaft{ 0.6, 0.62, 0.66 }, ball{ 0.85, 0.22, 0.2 };
-  Prop phantomMarker{ 0.72, 0.74, 0.78 }, phantom{ 0.9, 0.86, 0.72 }, next{ 0.95, 0.65, 0.15 };
-  Balls captured, touched;
+  HandEyeSceneProp tracker{ 0.55, 0.58, 0.62 };
+  HandEyeSceneProp cameraMarker{ 0.72, 0.74, 0.78 }, camera{ 0.23, 0.43, 0.65 }, frustum{ 0.3, 0.6, 0.95 };
+  HandEyeSceneProp stylusMarker{ 0.72, 0.74, 0.78 }, shaft{ 0.6, 0.62, 0.66 }, ball{ 0.85, 0.22, 0.2 };
+  HandEyeSceneProp phantomMarker{ 0.72, 0.74, 0.78 }, phantom{ 0.9, 0.86, 0.72 }, next{ 0.95, 0.65, 0.15 };
+  HandEyeSceneBalls captured, touched;
   vtkWeakPointer<vtkRenderer> renderer;
 
   std::optional<Eigen::Isometry3d> markerToTracker, markerToCamera, stylusToTracker, phantomToTracker, modelToPhantom;

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-/// The icons are part of a static library; without this the linker leaves them out. Not to be in a namespace: rcc's function is not.
+/// The icons are part of a static library; without this the linker leaves them out. Not in a namespace: rcc's function is not.
 static void initializeIcons()
 {
   Q_INIT_RESOURCE(HandEyeWidgets);

@@ -172,11 +172,12 @@ void SampleTable::Private::updateActions()
     excludedCount += row.excluded ? 1 : 0;
     usedCount += row.used && !row.excluded ? 1 : 0;
   }
-  QString text = counted(model->rows().size(), SampleTable::tr("1 sample"), SampleTable::tr("%1 samples"));
+  const int total = model->rows().size();
+  QString text = counted(total, SampleTable::tr("1 sample"), SampleTable::tr("%1 samples"));
   if (editable && !model->rows().isEmpty())
   {
-    text += SampleTable::tr(", %1 used").arg(usedCount);
-    text += excludedCount > 0 ? SampleTable::tr(", %1 left out on request").arg(excludedCount) : QString();
+    text = SampleTable::tr("%1 of %2 used").arg(usedCount).arg(total);
+    text += excludedCount > 0 ? SampleTable::tr(", %1 left out").arg(excludedCount) : QString();
   }
   count->setText(text);
 }
@@ -352,6 +353,30 @@ void SampleTable::redo()
   if (d->editable)
   {
     d->stack->redo();
+  }
+}
+
+QSize SampleTable::minimumSizeHint() const
+{
+  return { 240, 160 };
+}
+
+void SampleTable::resizeEvent(QResizeEvent* event)
+{
+  QWidget::resizeEvent(event);
+  // In a narrow panel the status keeps the room for some words, and the table scrolls.
+  const int words = 20 * this->fontMetrics().averageCharWidth();
+  QHeaderView* header = d->view->horizontalHeader();
+  int others = 0;
+  for (int column = 0; column < SampleTableModel::ColumnCount; ++column)
+  {
+    others += column == SampleTableModel::Status ? 0 : header->sectionSize(column);
+  }
+  const bool isNarrow = d->view->viewport()->width() - others < words;
+  header->setSectionResizeMode(SampleTableModel::Status, isNarrow ? QHeaderView::Fixed : QHeaderView::Stretch);
+  if (isNarrow)
+  {
+    header->resizeSection(SampleTableModel::Status, words);
   }
 }
 

@@ -45,6 +45,8 @@ public:
   QVector<int> selectedIds() const;
   void selectSample(int id);
 
+  QSize minimumSizeHint() const override;
+
 public slots:
   /// Excludes (or takes in again) the selected samples; deletes them; as the buttons, the menu and the keys do.
   void excludeSelected(bool excluded);
@@ -66,6 +68,7 @@ signals:
 
 protected:
   void changeEvent(QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
 private:
   class Private;

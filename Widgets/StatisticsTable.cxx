@@ -18,7 +18,7 @@ StatisticsTable::StatisticsTable(QWidget* parent)
 {
   this->setAccessibleName(tr("Statistics of the errors"));
   this->setHorizontalHeaderLabels(
-    { tr("Capture"), tr("Mean [px]"), tr("Std [px]"), tr("Min [px]"), tr("Max [px]"), tr("RMS [px]"), tr("Count") });
+    { tr("Capture"), tr("Mean\n[px]"), tr("Std\n[px]"), tr("Min\n[px]"), tr("Max\n[px]"), tr("RMS\n[px]"), tr("Count") });
   const QStringList toolTips = { tr("What was measured"), tr("Mean of the errors, px"),
     tr("Standard deviation of the errors (n - 1), px"), tr("Smallest error, px"), tr("Largest error, px"),
     tr("Root of the mean square of the errors, px"), tr("Number of errors") };
@@ -64,7 +64,7 @@ QString StatisticsTable::toText() const
   QStringList lines, titles;
   for (int column = 0; column < ColumnCount; ++column)
   {
-    titles += this->horizontalHeaderItem(column)->text();
+    titles += this->horizontalHeaderItem(column)->text().replace(QLatin1Char('\n'), QLatin1Char(' '));
   }
   lines += titles.join(QLatin1Char('\t'));
   for (int row = 0; row < this->rowCount(); ++row)

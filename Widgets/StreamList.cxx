@@ -63,6 +63,7 @@ QString ageText(double seconds)
 class StreamList::Private
 {
 public:
+  void setUpTable(StreamList& list);
   void fill(Role role);
   void showRow(int row, const Stream& stream) const;
   const Stream* find(const QString& name) const
@@ -84,7 +85,7 @@ void StreamList::Private::showRow(int row, const Stream& stream) const
     stream.rateHz > 0 ? QLocale().toString(stream.rateHz, 'f', 1) : QString(QChar(0x2013)), ageText(stream.ageSec),
     stream.message };
   QStringList about = { stream.name, stream.source.isEmpty() ? QString() : StreamList::tr("from %1").arg(stream.source),
-    StreamList::lightWord(stream.light), stream.message };
+    typeWord(stream.type), StreamList::lightWord(stream.light), stream.message };
   about.removeAll(QString());
   for (int column = 0; column < ColumnCount; ++column)
   {
@@ -150,6 +151,33 @@ void StreamList::Private::fill(Role role)
   }
 }
 
+void StreamList::Private::setUpTable(StreamList& list)
+{
+  table = new QTableWidget(0, ColumnCount, &list);
+  table->setAccessibleName(StreamList::tr("Streams"));
+  table->setHorizontalHeaderLabels({ StreamList::tr("State"), StreamList::tr("Stream"), StreamList::tr("Type"),
+    StreamList::tr("Rate [Hz]"), StreamList::tr("Age [s]"), StreamList::tr("Message") });
+  const QStringList toolTips = {
+    StreamList::tr("Live: arriving. Stale: nothing new for a while, or its tool is hidden. Lost: its source is gone."),
+    StreamList::tr("Name of the stream, as its source gives it"), StreamList::tr("What the stream carries"),
+    StreamList::tr("Samples a second"), StreamList::tr("Time since the last sample, s"),
+    StreamList::tr("Why the stream is not live")
+  };
+  for (int column = 0; column < ColumnCount; ++column)
+  {
+    table->horizontalHeaderItem(column)->setToolTip(toolTips[column]);
+  }
+  table->verticalHeader()->hide();
+  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table->setTabKeyNavigation(false);
+  table->setShowGrid(false);
+  table->setAlternatingRowColors(true);
+  table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table->horizontalHeader()->setSectionResizeMode(MessageColumn, QHeaderView::Stretch);
+  table->horizontalHeader()->setHighlightSections(false);
+}
+
 StreamList::StreamList(QWidget* parent)
   : QWidget(parent)
   , d(std::make_unique<Private>())
@@ -157,27 +185,7 @@ StreamList::StreamList(QWidget* parent)
   qRegisterMetaType<handeye::StreamList::Role>("handeye::StreamList::Role");
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
-  d->table = new QTableWidget(0, ColumnCount, this);
-  d->table->setAccessibleName(tr("Streams"));
-  d->table->setHorizontalHeaderLabels({ tr("State"), tr("Stream"), tr("Type"), tr("Rate [Hz]"), tr("Age [s]"), tr("Message") });
-  const QStringList toolTips = {
-    tr("Live: arriving. Stale: nothing new for a while, or its tool is hidden. Lost: its source is gone."),
-    tr("Name of the stream, as its source gives it"), tr("What the stream carries"), tr("Samples a second"),
-    tr("Time since the last sample, s"), tr("Why the stream is not live")
-  };
-  for (int column = 0; column < ColumnCount; ++column)
-  {
-    d->table->horizontalHeaderItem(column)->setToolTip(toolTips[column]);
-  }
-  d->table->verticalHeader()->hide();
-  d->table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  d->table->setSelectionBehavior(QAbstractItemView::SelectRows);
-  d->table->setTabKeyNavigation(false);
-  d->table->setShowGrid(false);
-  d->table->setAlternatingRowColors(true);
-  d->table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  d->table->horizontalHeader()->setSectionResizeMode(MessageColumn, QHeaderView::Stretch);
-  d->table->horizontalHeader()->setHighlightSections(false);
+  d->setUpTable(*this);
   layout->addWidget(d->table, 1);
   d->nothing = new QLabel(tr("No stream arrives yet."), this);
   d->nothing->setAlignment(Qt::AlignCenter);
@@ -194,7 +202,8 @@ StreamList::StreamList(QWidget* parent)
     box->setToolTip(uses[role]);
     box->setAccessibleName(QString(titles[role]).remove(QLatin1Char('&')));
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    box->setMinimumContentsLength(18);
+    box->setMinimumContentsLength(8);
+    box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     d->boxes[std::size_t(role)] = box;
     form->addRow(titles[role], box);
     d->fill(Role(role));
@@ -243,6 +252,18 @@ void StreamList::setChoice(Role role, const QString& name)
 QComboBox* StreamList::choiceBox(Role role) const
 {
   return d->boxes[std::size_t(role)];
+}
+
+QSize StreamList::minimumSizeHint() const
+{
+  return { 260, QWidget::minimumSizeHint().height() };
+}
+
+void StreamList::resizeEvent(QResizeEvent* event)
+{
+  QWidget::resizeEvent(event);
+  // In a narrow panel the message is worth more than the type, which the tooltip says too.
+  d->table->setColumnHidden(TypeColumn, this->width() < 28 * this->fontMetrics().averageCharWidth() + 260);
 }
 
 QIcon StreamList::lightIcon(Light light)

@@ -69,9 +69,14 @@ public:
   /// "live", "stale", "lost" in the person's language.
   static QString lightWord(Light light);
 
+  QSize minimumSizeHint() const override;
+
 signals:
   /// A person chose a stream for a role.
   void choiceChanged(handeye::StreamList::Role role, QString name);
+
+protected:
+  void resizeEvent(QResizeEvent* event) override;
 
 private:
   class Private;

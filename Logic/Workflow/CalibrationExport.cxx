@@ -133,6 +133,11 @@ const std::vector<ExportFormat>& exportFormats()
 ExportResult exportCalibration(const ExportSources& sources, const std::string& format, const std::filesystem::path& file)
 {
   const ExportFormat& wanted = formatOf(format);
+  const nlohmann::json status = entry(sources.calibration, "status");
+  if (!status.is_null() && status != "ok")
+  {
+    throw io::FileError(sources.calibration, "is not exported: its status is " + status.dump() + ", \"ok\" was expected");
+  }
   const io::CameraFile camera = io::readCameraFile(sources.calibration);
   ExportResult result;
   result.files = { file };

@@ -69,6 +69,16 @@ TEST_F(LandmarkFiles, PlainText_IsNeither)
   EXPECT_EQ(list.points.size(), 2U);
 }
 
+TEST_F(LandmarkFiles, Names_AreTheCommentsOfThePoints_IfAllHaveOne)
+{
+  const std::vector<std::string> expected = { "tip", "left rim" };
+  EXPECT_EQ(readLandmarkNames(write("above.txt", "# Landmarks, mm\n# tip\n1 2 3\n# left rim\r\n4 5 6\r\n")), expected);
+  EXPECT_EQ(readLandmarkNames(write("beside.txt", "1 2 3 # tip\n4 5 6\t#left rim \n")), expected);
+  // A heading is no name of the first point.
+  EXPECT_TRUE(readLandmarkNames(write("heading.txt", "# picked with a mouse\n1 2 3\n4 5 6\n")).empty());
+  EXPECT_TRUE(readLandmarkNames(write("points.json", "{ \"points_Phantom_Mm\": [[1, 2, 3]] }")).empty());
+}
+
 TEST_F(LandmarkFiles, ExchangedLists_AreRefused)
 {
   writeTouchedLandmarks(folder_.path() / "a.txt", touched(), "recording.igs.mha");

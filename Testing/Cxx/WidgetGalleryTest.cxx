@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A picture of each widget with realistic data, light and dark, into HANDEYE_SCREENSHOT_DIR: for people to look at. What a program can say
-// of them is checked: they are not empty, differ between the palettes, and no text is cut off that has room.
+// A picture of each widget with realistic data, light and dark, into HANDEYE_SCREENSHOT_DIR: for people to look at. What a program
+// can say of them is checked: they are not empty, differ between the palettes, and have the size that they ask for.
 #include "CalibrationExport.h"
 #include "CoverageView.h"
 #include "DemoResults.h"
@@ -160,14 +160,8 @@ private slots:
 
   void sampleTable()
   {
-    this->picture(QStringLiteral("SampleTable"), { 680, 420 },
-      [this]
-      {
-        auto table = std::make_unique<SampleTable>();
-        table->setRows(this->sampleRows());
-        table->selectSample(2);
-        return table;
-      });
+    this->picture(QStringLiteral("SampleTable"), { 680, 420 }, [this] { return this->makeSampleTable(); });
+    this->picture(QStringLiteral("SampleTableNarrow"), { 360, 420 }, [this] { return this->makeSampleTable(); });
   }
 
   void plotAndStatistics()
@@ -179,80 +173,26 @@ private slots:
         plot->setSeries(this->errorSeries());
         return plot;
       });
-    this->picture(QStringLiteral("StatisticsTable"), { 560, 110 },
-      [this]
-      {
-        auto table = std::make_unique<StatisticsTable>();
-        table->setSeries(this->errorSeries());
-        return table;
-      });
+    this->picture(QStringLiteral("StatisticsTable"), { 560, 110 }, [this] { return this->makeStatistics(); });
+    this->picture(QStringLiteral("StatisticsTableNarrow"), { 360, 420 }, [this] { return this->makeStatistics(); });
   }
 
   void streamList()
   {
-    this->picture(QStringLiteral("StreamList"), { 700, 330 },
-      []
-      {
-        using Stream = StreamList::Stream;
-        using Light = StreamList::Light;
-        using Type = StreamList::Type;
-        auto list = std::make_unique<StreamList>();
-        const QString server = QStringLiteral("127.0.0.1:18944");
-        list->setStreams({ Stream{ QStringLiteral("StylusToTracker"), server, Type::Transform, Light::Live, 60.1, 0.02, {} },
-          Stream{ QStringLiteral("MarkerToTracker"), server, Type::Transform, Light::Stale, 60.1, 0.02,
-            QStringLiteral("the tool is not seen") },
-          Stream{ QStringLiteral("PhantomToTracker"), server, Type::Transform, Light::Live, 60.1, 0.01, {} },
-          Stream{ QStringLiteral("Image"), QStringLiteral("/dev/video0"), Type::Video, Light::Lost, 0, 12.4,
-            QStringLiteral("the camera was unplugged") } });
-        list->setChoice(StreamList::Role::Stylus, QStringLiteral("StylusToTracker"));
-        list->setChoice(StreamList::Role::CameraMarker, QStringLiteral("MarkerToTracker"));
-        list->setChoice(StreamList::Role::Video, QStringLiteral("EndoscopeImage"));
-        return list;
-      });
+    this->picture(QStringLiteral("StreamList"), { 700, 330 }, [this] { return this->makeStreamList(); });
+    this->picture(QStringLiteral("StreamListNarrow"), { 360, 420 }, [this] { return this->makeStreamList(); });
   }
 
   void landmarkPanel()
   {
-    this->picture(QStringLiteral("LandmarkPanel"), { 520, 460 },
-      [this]
-      {
-        auto panel = std::make_unique<LandmarkPanel>();
-        panel->loadModelLandmarks(QString::fromStdString((demo_->folder / "../Meshes/VertebraLandmarks.txt").string()));
-        panel->setTipAvailable(true);
-        const LandmarkLists lists =
-          readLandmarkLists(demo_->folder / "phantom_model_points.txt", demo_->folder / "phantom_touched_points.txt");
-        QVector<LandmarkPanel::Landmark> landmarks = panel->landmarks();
-        for (int index = 0; index + 2 < landmarks.size(); ++index)
-        {
-          landmarks[index].touched_Phantom = lists.points_Phantom.at(std::size_t(index));
-        }
-        landmarks[landmarks.size() - 2].skipped = true;
-        panel->setLandmarks(landmarks);
-        const LandmarkPanel::Pairs pairs = panel->pairs();
-        panel->setResult(registerLandmarks(pairs.points_Model, pairs.points_Phantom));
-        return panel;
-      });
+    this->picture(QStringLiteral("LandmarkPanel"), { 520, 460 }, [this] { return this->makeLandmarkPanel(); });
+    this->picture(QStringLiteral("LandmarkPanelNarrow"), { 360, 420 }, [this] { return this->makeLandmarkPanel(); });
   }
 
   void exportPanel()
   {
-    this->picture(QStringLiteral("ExportPanel"), { 560, 520 },
-      [this]
-      {
-        const QString session = QStringLiteral(HANDEYE_TEST_OUTPUT_DIR "/GallerySession");
-        QDir().mkpath(session);
-        ExportSources sources;
-        sources.calibration = (session + QStringLiteral("/calibration.json")).toStdString();
-        sources.stylus = (session + QStringLiteral("/stylus.json")).toStdString();
-        writeJson(sources.calibration, calibrationJson(demo_->calibration));
-        writeJson(sources.stylus, stylusJson(demo_->pivot));
-        auto panel = std::make_unique<ExportPanel>();
-        panel->setSources(sources);
-        panel->setFolder(session + QStringLiteral("/export"));
-        panel->setReportEnabled(true);
-        panel->exportNow();
-        return panel;
-      });
+    this->picture(QStringLiteral("ExportPanel"), { 560, 520 }, [this] { return this->makeExportPanel(); });
+    this->picture(QStringLiteral("ExportPanelNarrow"), { 360, 420 }, [this] { return this->makeExportPanel(); });
   }
 
   void scene()
@@ -296,11 +236,83 @@ private:
       QVERIFY2(colors.size() > 8, qPrintable(name + QStringLiteral(" is all but empty")));
       // The font here may be larger than the person's, but what a widget asks for it gets in the wizard.
       const QSize least = widget->minimumSizeHint();
+      QVERIFY2(least.width() <= 345,
+        qPrintable(QStringLiteral("%1 is %2 px wide at least: too much for a module's panel").arg(name).arg(least.width())));
       QVERIFY2(least.width() <= size.width() && least.height() <= size.height(),
         qPrintable(QStringLiteral("%1 wants %2 x %3").arg(name).arg(least.width()).arg(least.height())));
     }
     QVERIFY2(
       light != dark || name == QStringLiteral("VideoView"), qPrintable(name + QStringLiteral(" does not follow the palette")));
+  }
+
+  std::unique_ptr<QWidget> makeSampleTable()
+  {
+    auto table = std::make_unique<SampleTable>();
+    table->setRows(this->sampleRows());
+    table->selectSample(2);
+    return table;
+  }
+
+  std::unique_ptr<QWidget> makeStatistics()
+  {
+    auto table = std::make_unique<StatisticsTable>();
+    table->setSeries(this->errorSeries());
+    return table;
+  }
+
+  std::unique_ptr<QWidget> makeStreamList()
+  {
+    using Stream = StreamList::Stream;
+    using Light = StreamList::Light;
+    using Type = StreamList::Type;
+    auto list = std::make_unique<StreamList>();
+    const QString server = QStringLiteral("127.0.0.1:18944");
+    list->setStreams({ Stream{ QStringLiteral("StylusToTracker"), server, Type::Transform, Light::Live, 60.1, 0.02, {} },
+      Stream{ QStringLiteral("MarkerToTracker"), server, Type::Transform, Light::Stale, 60.1, 0.02,
+        QStringLiteral("the tool is not seen") },
+      Stream{ QStringLiteral("PhantomToTracker"), server, Type::Transform, Light::Live, 60.1, 0.01, {} },
+      Stream{ QStringLiteral("Image"), QStringLiteral("/dev/video0"), Type::Video, Light::Lost, 0, 12.4,
+        QStringLiteral("the camera was unplugged") } });
+    list->setChoice(StreamList::Role::Stylus, QStringLiteral("StylusToTracker"));
+    list->setChoice(StreamList::Role::CameraMarker, QStringLiteral("MarkerToTracker"));
+    list->setChoice(StreamList::Role::Video, QStringLiteral("EndoscopeImage"));
+    return list;
+  }
+
+  std::unique_ptr<QWidget> makeLandmarkPanel()
+  {
+    auto panel = std::make_unique<LandmarkPanel>();
+    panel->loadModelLandmarks(QString::fromStdString((demo_->folder / "../Meshes/VertebraLandmarks.txt").string()));
+    panel->setTipAvailable(true);
+    const LandmarkLists lists =
+      readLandmarkLists(demo_->folder / "phantom_model_points.txt", demo_->folder / "phantom_touched_points.txt");
+    QVector<LandmarkPanel::Landmark> landmarks = panel->landmarks();
+    for (int index = 0; index + 2 < landmarks.size(); ++index)
+    {
+      landmarks[index].touched_Phantom = lists.points_Phantom.at(std::size_t(index));
+    }
+    landmarks[landmarks.size() - 2].skipped = true;
+    panel->setLandmarks(landmarks);
+    const LandmarkPanel::Pairs pairs = panel->pairs();
+    panel->setResult(registerLandmarks(pairs.points_Model, pairs.points_Phantom));
+    return panel;
+  }
+
+  std::unique_ptr<QWidget> makeExportPanel()
+  {
+    const QString session = QStringLiteral(HANDEYE_TEST_OUTPUT_DIR "/GallerySession");
+    QDir().mkpath(session);
+    ExportSources sources;
+    sources.calibration = (session + QStringLiteral("/calibration.json")).toStdString();
+    sources.stylus = (session + QStringLiteral("/stylus.json")).toStdString();
+    writeJson(sources.calibration, calibrationJson(demo_->calibration));
+    writeJson(sources.stylus, stylusJson(demo_->pivot));
+    auto panel = std::make_unique<ExportPanel>();
+    panel->setSources(sources);
+    panel->setFolder(session + QStringLiteral("/export"));
+    panel->setReportEnabled(true);
+    panel->exportNow();
+    return panel;
   }
 
   std::unique_ptr<QWidget> makeStages() const

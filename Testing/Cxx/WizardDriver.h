@@ -17,6 +17,16 @@
 #include <algorithm>
 #include <ctime>
 
+/// How long a test waits for what takes a moment on a free machine; on one that is shared, flushing a file may take seconds.
+constexpr int PatienceMs = 60000;
+
+/// What was refused, in the output of a test that fails.
+inline void printRefusals(HandEyeCalibrationPanel& panel)
+{
+  QObject::connect(&panel.workbench(), &handeye::HandEyeWorkbench::refused,
+    [](handeye::WizardStep step, const QString& message) { qInfo("refused on page %d: %s", int(step) + 1, qPrintable(message)); });
+}
+
 /// Clicks through a panel's real buttons, as a person does.
 class WizardDriver
 {

@@ -62,24 +62,25 @@ void expectTruth(const HandEyeWorkbench& workbench)
 void loadInputs(HandEyeCalibrationPanel& panel)
 {
   QVERIFY(panel.openFile(demo("camera.yml")));
-  QTRY_VERIFY(panel.workbench().camera().has_value());
+  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().camera().has_value(), PatienceMs);
   panel.goTo(WizardStep::Stylus);
   QVERIFY(panel.openFile(demo("pivot.igs.mha")));
-  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().stylus().has_value(), 10000);
+  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().stylus().has_value(), PatienceMs);
   panel.goTo(WizardStep::Capture);
 }
 
 void importCapture(HandEyeCalibrationPanel& panel)
 {
   QVERIFY(panel.openFile(demo("calibration")));
-  QTRY_VERIFY_WITH_TIMEOUT(!panel.workbench().capture().isBusy() && panel.workbench().capture().samples().size() > 10, 20000);
-  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().calibration() && panel.workbench().calibration()->isUsable(), 10000);
+  QTRY_VERIFY_WITH_TIMEOUT(!panel.workbench().capture().isBusy() && panel.workbench().capture().samples().size() > 10, PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().calibration() && panel.workbench().calibration()->isUsable(), PatienceMs);
 }
 
 /// Collects samples and dies of SIGKILL in the middle.
 int captureAndDie(const QString& folder)
 {
   HandEyeCalibrationPanel panel(nullptr, nullptr);
+  printRefusals(panel);
   panel.workbench().openSession(folder);
   loadInputs(panel);
   QObject::connect(&panel.workbench().capture(), &handeye::CaptureTask::samplesChanged,
@@ -114,6 +115,7 @@ private slots:
 void WizardRecordingTest::recording_FromFirstPageToLast()
 {
   HandEyeCalibrationPanel panel(nullptr, nullptr);
+  printRefusals(panel);
   testing_widgets::show(panel, QSize(1280, 800));
   HandEyeWorkbench& workbench = panel.workbench();
   WizardDriver driver(panel);
@@ -121,28 +123,28 @@ void WizardRecordingTest::recording_FromFirstPageToLast()
   driver.check(driver.onPage<QRadioButton>("recordingButton"));
   driver.onPage<QLineEdit>("recordingEdit")->setText(demo("calibration"));
   driver.click(driver.onPage("connectButton"));
-  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), 10000);
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
   driver.click(driver.find("nextButton"));
 
   QCOMPARE(panel.currentStep(), WizardStep::Camera);
   QVERIFY(!driver.canGoNext());
   QVERIFY(panel.openFile(demo("camera.yml")));
-  QTRY_VERIFY(driver.canGoNext());
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
   driver.click(driver.find("nextButton"));
 
   QVERIFY(!driver.canGoNext());
   QVERIFY(panel.openFile(demo("pivot.igs.mha")));
-  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), 10000);
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
   driver.click(driver.find("nextButton"));
 
   QCOMPARE(panel.currentStep(), WizardStep::Ball);
-  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), 10000);
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
   driver.click(driver.find("nextButton"));
 
   QCOMPARE(panel.currentStep(), WizardStep::Capture);
   driver.check(driver.onPage<QCheckBox>("handsFreeBox"));
   importCapture(panel);
-  QTRY_VERIFY(driver.canGoNext());
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
   expectTruth(workbench);
   driver.click(driver.find("nextButton"));
 
@@ -150,13 +152,13 @@ void WizardRecordingTest::recording_FromFirstPageToLast()
   driver.check(driver.onPage<QCheckBox>("handsFreeBox"));
   QVERIFY(!driver.canGoNext());
   QVERIFY(panel.openFile(demo("validation")));
-  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), 20000);
-  QTRY_VERIFY_WITH_TIMEOUT(!workbench.validationCapture().isBusy(), 20000);
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(!workbench.validationCapture().isBusy(), PatienceMs);
   QVERIFY2(workbench.validation()->projectionErrorPx.mean < 3, qPrintable(driver.message()));
   driver.click(driver.find("nextButton"));
 
   QCOMPARE(panel.currentStep(), WizardStep::Overlay);
-  QTRY_VERIFY(workbench.model() != nullptr);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.model() != nullptr, PatienceMs);
   QVERIFY(!driver.canGoNext());
   QVERIFY2(driver.reason().contains(QStringLiteral("Register the phantom")), qPrintable(driver.reason()));
   const QTemporaryDir folder;
@@ -166,7 +168,7 @@ void WizardRecordingTest::recording_FromFirstPageToLast()
   handeye::writeJson(
     phantom.toStdString(), handeye::phantomJson(handeye::registerLandmarks(landmarks.points_Model, landmarks.points_Phantom)));
   QVERIFY(panel.openFile(phantom));
-  QTRY_VERIFY(driver.canGoNext());
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
   driver.click(driver.find("nextButton"));
   QCOMPARE(panel.currentStep(), WizardStep::Finish);
 
@@ -182,34 +184,35 @@ void WizardRecordingTest::recording_FromFirstPageToLast()
 void WizardRecordingTest::samples_ExcludeDeleteUndoRedo()
 {
   HandEyeCalibrationPanel panel(nullptr, nullptr);
+  printRefusals(panel);
   testing_widgets::show(panel, QSize(1280, 800));
   HandEyeWorkbench& workbench = panel.workbench();
   loadInputs(panel);
   importCapture(panel);
   const int all = workbench.calibration()->calibration.usedCount;
-  auto* table = panel.findChild<handeye::SampleTable*>();
+  auto* table = panel.page(WizardStep::Capture)->findChild<handeye::SampleTable*>();
   const int first = table->rows().first().id;
   const auto taking = [&] { return int(workbench.calibration()->frames.size()); };
   const int count = taking();
 
   table->selectSample(first);
   table->excludeSelected(true);
-  QTRY_COMPARE(taking(), count - 1);
+  QTRY_COMPARE_WITH_TIMEOUT(taking(), count - 1, PatienceMs);
   QVERIFY(workbench.calibration()->calibration.usedCount <= all);
   QVERIFY(workbench.capture().samples()[first].isExcluded);
   table->undo();
-  QTRY_COMPARE(taking(), count);
+  QTRY_COMPARE_WITH_TIMEOUT(taking(), count, PatienceMs);
   table->redo();
-  QTRY_COMPARE(taking(), count - 1);
+  QTRY_COMPARE_WITH_TIMEOUT(taking(), count - 1, PatienceMs);
   table->undo();
-  QTRY_COMPARE(taking(), count);
+  QTRY_COMPARE_WITH_TIMEOUT(taking(), count, PatienceMs);
 
   table->selectSample(first);
   table->deleteSelected();
-  QTRY_COMPARE(taking(), count - 1);
+  QTRY_COMPARE_WITH_TIMEOUT(taking(), count - 1, PatienceMs);
   QCOMPARE(table->rows().size(), count - 1);
   table->undo();
-  QTRY_COMPARE(taking(), count);
+  QTRY_COMPARE_WITH_TIMEOUT(taking(), count, PatienceMs);
   QCOMPARE(table->rows().size(), count);
 }
 
@@ -221,10 +224,11 @@ void WizardRecordingTest::session_ReopenedBringsEverythingBack()
   int samples = 0, excluded = -1, deleted = -1, validated = 0;
   {
     HandEyeCalibrationPanel panel(nullptr, nullptr);
+  printRefusals(panel);
     HandEyeWorkbench& workbench = panel.workbench();
     workbench.openSession(folder);
     QSignalSpy opened(&workbench, &HandEyeWorkbench::sessionOpened);
-    QVERIFY(opened.wait(5000));
+    QVERIFY(opened.wait(PatienceMs));
     loadInputs(panel);
     importCapture(panel);
     workbench.setBallRadius(15.0);
@@ -233,18 +237,19 @@ void WizardRecordingTest::session_ReopenedBringsEverythingBack()
     samples = workbench.capture().samples().size();
     workbench.capture().setExcluded({ excluded }, true);
     workbench.capture().setDeleted({ deleted }, true);
-    QTRY_COMPARE(int(workbench.calibration()->frames.size()), samples - 2);
+    QTRY_COMPARE_WITH_TIMEOUT(int(workbench.calibration()->frames.size()), samples - 2, PatienceMs);
     panel.goTo(WizardStep::Validation);
     QVERIFY(panel.openFile(demo("validation")));
-    QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && !workbench.validationCapture().isBusy(), 20000);
-    QTRY_COMPARE(workbench.validation()->projectionErrorPx.count, workbench.validationCapture().samples().size());
+    QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && !workbench.validationCapture().isBusy(), PatienceMs);
+    QTRY_COMPARE_WITH_TIMEOUT(workbench.validation()->projectionErrorPx.count, workbench.validationCapture().samples().size(), PatienceMs);
     validated = workbench.validation()->projectionErrorPx.count;
     markerToCamera = workbench.calibration()->calibration.markerToCamera;
   }
   HandEyeCalibrationPanel panel(nullptr, nullptr);
+  printRefusals(panel);
   HandEyeWorkbench& workbench = panel.workbench();
   QVERIFY(panel.openFile(folder));
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count == validated, 20000);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count == validated, PatienceMs);
   QCOMPARE(workbench.capture().samples().size(), samples);
   QVERIFY(workbench.capture().samples()[excluded].isExcluded);
   QVERIFY(workbench.capture().samples()[deleted].isDeleted);
@@ -262,15 +267,16 @@ void WizardRecordingTest::session_KilledKeepsWhatWasAnnounced()
   const QString folder = parent.filePath(QStringLiteral("session"));
   QProcess child;
   child.start(QCoreApplication::applicationFilePath(), { QStringLiteral("--capture-and-die"), folder });
-  QTRY_VERIFY_WITH_TIMEOUT(child.state() == QProcess::NotRunning, 40000);
+  QTRY_VERIFY_WITH_TIMEOUT(child.state() == QProcess::NotRunning, PatienceMs);
   QCOMPARE(child.exitStatus(), QProcess::CrashExit);
   const QByteArray output = child.readAllStandardOutput();
   QVERIFY2(output.contains("announced"), output);
   const int announced = output.mid(output.lastIndexOf("announced") + 10).trimmed().toInt();
   HandEyeCalibrationPanel panel(nullptr, nullptr);
+  printRefusals(panel);
   QVERIFY(panel.openFile(folder));
-  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().capture().samples().size() >= announced, 20000);
-  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().calibration() && panel.workbench().calibration()->isUsable(), 10000);
+  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().capture().samples().size() >= announced, PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().calibration() && panel.workbench().calibration()->isUsable(), PatienceMs);
 }
 
 int main(int argc, char** argv)

@@ -55,14 +55,14 @@ void WizardRunTest::simulatedRun_CalibrationIsTheRoomsTruth()
   QVERIFY(!driver.canGoNext());
   QVERIFY(driver.reason().contains(QStringLiteral("Connect")));
   driver.click(driver.onPage("connectButton"));
-  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), 10000);
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
   qInfo("devices %.1f s", double(clock.elapsed()) / 1000);
   driver.click(driver.find("nextButton"));
   QCOMPARE(panel.currentStep(), WizardStep::Camera);
 
   // Camera: the room knows its own
   stalls.setPhase(QStringLiteral("camera"));
-  QTRY_VERIFY(driver.canGoNext());
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
   driver.click(driver.find("nextButton"));
 
   // Stylus
@@ -70,7 +70,7 @@ void WizardRunTest::simulatedRun_CalibrationIsTheRoomsTruth()
   QCOMPARE(panel.currentStep(), WizardStep::Stylus);
   QVERIFY(!driver.canGoNext());
   driver.click(driver.onPage("startButton"));
-  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), 20000);
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
   qInfo("stylus %.1f s: %s", double(clock.elapsed()) / 1000, qPrintable(driver.message()));
   const Eigen::Vector3d tipError = workbench.stylus()->tip_Stylus - workbench.devices().room()->tip_Stylus;
   QVERIFY(tipError.norm() < 0.5);
@@ -79,14 +79,14 @@ void WizardRunTest::simulatedRun_CalibrationIsTheRoomsTruth()
   // Ball
   stalls.setPhase(QStringLiteral("ball"));
   QCOMPARE(panel.currentStep(), WizardStep::Ball);
-  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), 10000);
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
   driver.click(driver.find("nextButton"));
 
   // Capture
   stalls.setPhase(QStringLiteral("capture"));
   QCOMPARE(panel.currentStep(), WizardStep::Capture);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.capture().samples().size() >= 10, 40000);
-  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), 5000);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.capture().samples().size() >= 10, PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
   qInfo("capture %.1f s: %d samples: %s", double(clock.elapsed()) / 1000, workbench.capture().samples().size(),
     qPrintable(driver.message()));
   driver.click(driver.find("nextButton"));
@@ -94,7 +94,7 @@ void WizardRunTest::simulatedRun_CalibrationIsTheRoomsTruth()
   // Validation
   stalls.setPhase(QStringLiteral("validation"));
   QCOMPARE(panel.currentStep(), WizardStep::Validation);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count >= 4, 20000);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count >= 4, PatienceMs);
   qInfo("validation %.1f s: %s", double(clock.elapsed()) / 1000, qPrintable(driver.message()));
   QVERIFY(driver.canGoNext());
   driver.click(driver.find("nextButton"));

@@ -71,6 +71,8 @@ private slots:
 private:
   void fill(HandEyeCalibrationPanel& panel);
   void takePictures(HandEyeCalibrationPanel& panel, const QSize& size, const QString& mark);
+
+  QStringList faults_;
 };
 
 /// A session with everything in it, and the demo's recording as live video.
@@ -79,15 +81,15 @@ void WizardScreensTest::fill(HandEyeCalibrationPanel& panel)
   HandEyeWorkbench& workbench = panel.workbench();
   handeye::DeviceSetup setup;
   QVERIFY(workbench.connectDevices(setup));
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.problemOf(WizardStep::Devices).isEmpty(), 10000);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.problemOf(WizardStep::Devices).isEmpty(), PatienceMs);
   panel.goTo(WizardStep::Stylus);
   workbench.pivot().start(setup.stylusToTracker);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.stylus().has_value(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.stylus().has_value(), PatienceMs);
   panel.goTo(WizardStep::Capture);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.capture().samples().size() >= 8, 40000);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.calibration() && workbench.calibration()->isUsable(), 5000);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.capture().samples().size() >= 8, PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.calibration() && workbench.calibration()->isUsable(), PatienceMs);
   panel.goTo(WizardStep::Validation);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count >= 4, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count >= 4, PatienceMs);
 }
 
 void WizardScreensTest::takePictures(HandEyeCalibrationPanel& panel, const QSize& size, const QString& mark)
@@ -101,10 +103,16 @@ void WizardScreensTest::takePictures(HandEyeCalibrationPanel& panel, const QSize
     const QPixmap picture = panel.screen()->grabWindow(panel.winId());
     const QString name = QStringLiteral("%1/wizard-%2-%3%4x%5.png").arg(screenshotFolder()).arg(i + 1).arg(mark).arg(size.width()).arg(size.height());
     QVERIFY2(picture.save(name), qPrintable(name));
-    const QStringList faults = faultsOf(*static_cast<QWidget*>(panel.page(WizardStep(i))));
-    QVERIFY2(faults.isEmpty(), qPrintable(QStringLiteral("page %1: %2").arg(i + 1).arg(faults.join(QStringLiteral("; ")))));
+    const QWidget* page = panel.page(WizardStep(i));
+    for (const QString& fault : faultsOf(*panel.page(WizardStep(i))))
+    {
+      faults_ << QStringLiteral("page %1: %2").arg(i + 1).arg(fault);
+    }
     const auto* area = panel.findChild<QScrollArea*>(QStringLiteral("scrollArea"));
-    QVERIFY2(area->widget()->width() <= area->viewport()->width(), qPrintable(QStringLiteral("page %1 is wider than the panel").arg(i + 1)));
+    if (page->minimumSizeHint().width() > 408 || page->width() > area->viewport()->width())
+    {
+      faults_ << QStringLiteral("page %1 needs %2 px").arg(i + 1).arg(page->minimumSizeHint().width());
+    }
   }
 }
 
@@ -121,6 +129,7 @@ void WizardScreensTest::everyPage_AtBothSizes()
   QApplication::setPalette(testing_widgets::darkPalette());
   takePictures(panel, QSize(2560, 1440), QStringLiteral("dark-"));
   QApplication::setPalette(testing_widgets::lightPalette());
+  QVERIFY2(faults_.isEmpty(), qPrintable(faults_.join(QLatin1Char('\n'))));
 }
 
 HANDEYE_WIDGET_TEST_MAIN(WizardScreensTest)

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "LandmarkPanel.h"
+#include "ui_LandmarkPanel.h"
+
+class QKeySequence;
+
+namespace handeye
+{
+
+/// Private to LandmarkPanel: its state, and how it is shown.
+class LandmarkPanel::Private
+{
+public:
+  static constexpr int FewestLandmarks = 3;
+
+  explicit Private(LandmarkPanel& panel)
+    : q(panel)
+  {
+  }
+
+  void setUpUi();
+  void connectButtons();
+  void addShortcut(const QKeySequence& key, void (LandmarkPanel::*slot)());
+  void update();
+  void updateRow(int row, const QVector<int>& paired);
+  void updateButtons();
+  void updateVerdict();
+  QString usableVerdict() const;
+  QString refusal() const;
+  void showVerdict(const QString& text, Level level);
+  QString stateOf(int row) const;
+  int nextUntouched(int after) const;
+  void changed();
+
+  LandmarkPanel& q;
+  Ui::LandmarkPanel ui;
+  QVector<Landmark> landmarks;
+  int current = -1;
+  bool tipAvailable = false;
+  QString tipReason;
+  QString fileError;
+  std::optional<LandmarkRegistrationResult> result;
+  std::optional<Eigen::Vector3d> lastTaken_Phantom;
+};
+
+}  // namespace handeye
