@@ -235,7 +235,20 @@ void SceneView::fitIfOutgrown()
   this->Floor->placeUnder(bounds);
   this->Scale->setText(
     this->Floor->plane() != SceneFloor::Plane::None ? tr("floor: %1 mm").arg(this->Floor->spacingMm()) : QString());
+  this->fitCamera(bounds);
+}
+
+void SceneView::fitCamera(const double bounds[6])
+{
+  constexpr double viewAngleDeg = 30;
+  this->Renderer->GetActiveCamera()->SetViewAngle(viewAngleDeg);
   this->Renderer->ResetCamera(bounds);
+  const int* const size = this->Window->GetSize();
+  if (this->isVisible() && size[0] > 1 && size[1] > 1)
+  {
+    // Closer than the sphere about the bounds, which leaves much of a narrow view empty.
+    this->Renderer->ResetCameraScreenSpace(bounds);
+  }
 }
 
 void SceneView::resetCamera()
@@ -253,7 +266,7 @@ void SceneView::resetCamera()
   }
   else
   {
-    this->Renderer->ResetCamera(bounds);
+    this->fitCamera(bounds);
   }
   this->requestRender();
 }

@@ -61,6 +61,7 @@ private:
   /// Resets the camera if something has come outside of what it was reset for.
   void fitIfOutgrown();
   void stopFitting();
+  void fitCamera(const double bounds[6]);
 
   QVTKOpenGLNativeWidget* View;
   QWidget* Bar;
