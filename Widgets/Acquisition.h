@@ -26,8 +26,8 @@ public:
   using SampleHandler = std::function<void(const devices::DeviceSample&)>;
   using FrameHandler = std::function<void(const devices::PairedFrame&)>;
 
-  Acquisition(std::vector<std::shared_ptr<devices::Source>> sources, const devices::FramePairingOptions& pairing, SampleHandler onSample,
-    FrameHandler onFrame);
+  Acquisition(std::vector<std::shared_ptr<devices::Source>> sources, const devices::FramePairingOptions& pairing,
+    SampleHandler onSample, FrameHandler onFrame);
   /// Stops the sources, which may take as long as a camera likes: not for the thread of a window.
   ~Acquisition();
   Acquisition(const Acquisition&) = delete;

@@ -21,7 +21,8 @@ BallPage::BallPage(HandEyeWorkbench& workbench, QWidget* parent)
   connect(ui_->forgetButton, &QPushButton::clicked, &workbench_, &HandEyeWorkbench::forgetBallColor);
   connect(ui_->stages, &StagesView::imageClicked, &workbench_, &HandEyeWorkbench::learnBallColor);
   connect(ui_->measureButton, &QPushButton::clicked, &workbench_, &HandEyeWorkbench::measureLatency);
-  connect(&workbench_.latency(), &LatencyTask::progressed, this, [this](double share) { ui_->latencyProgress->setValue(int(100 * share)); });
+  connect(&workbench_.latency(), &LatencyTask::progressed, this,
+    [this](double share) { ui_->latencyProgress->setValue(int(100 * share)); });
   connect(&workbench_, &HandEyeWorkbench::latencyChanged, ui_->latencyLabel, &QLabel::setText);
   connect(&workbench_.live(), &LivePipeline::shown, this, &BallPage::showFrame);
 }

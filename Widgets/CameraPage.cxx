@@ -35,8 +35,8 @@ QWidget* CameraPage::lensCalibrationPlace() const
 
 void CameraPage::load()
 {
-  const QString path = QFileDialog::getOpenFileName(
-    this, tr("Camera file"), {}, tr("Camera files (*.yml *.yaml *.xml *.json *.txt);;All files (*)"));
+  const QString path =
+    QFileDialog::getOpenFileName(this, tr("Camera file"), {}, tr("Camera files (*.yml *.yaml *.xml *.json *.txt);;All files (*)"));
   if (!path.isEmpty())
   {
     workbench_.loadCamera(path);
@@ -58,15 +58,15 @@ void CameraPage::refresh()
     {
       coefficients << QLocale().toString(coefficient, 'g', 4);
     }
-    ui_->lensLabel->setText(tr("<table cellspacing='4'><tr><td>Image:</td><td>%1</td></tr><tr><td>Focal length:</td><td>%2 x %3 px</td></tr>"
-                               "<tr><td>Principal point:</td><td>%4, %5 px</td></tr><tr><td>Distortion:</td><td>%6</td></tr></table>")
-                              .arg(lens.hasImageSize() ? tr("%1 x %2 px").arg(lens.width()).arg(lens.height())
-                                                       : tr("the file does not say its size"))
-                              .arg(lens.fx(), 0, 'f', 1)
-                              .arg(lens.fy(), 0, 'f', 1)
-                              .arg(lens.cx(), 0, 'f', 1)
-                              .arg(lens.cy(), 0, 'f', 1)
-                              .arg(coefficients.isEmpty() ? tr("none") : coefficients.join(QStringLiteral("  "))));
+    ui_->lensLabel->setText(
+      tr("<table cellspacing='4'><tr><td>Image:</td><td>%1</td></tr><tr><td>Focal length:</td><td>%2 x %3 px</td></tr>"
+         "<tr><td>Principal point:</td><td>%4, %5 px</td></tr><tr><td>Distortion:</td><td>%6</td></tr></table>")
+        .arg(lens.hasImageSize() ? tr("%1 x %2 px").arg(lens.width()).arg(lens.height()) : tr("the file does not say its size"))
+        .arg(lens.fx(), 0, 'f', 1)
+        .arg(lens.fy(), 0, 'f', 1)
+        .arg(lens.cx(), 0, 'f', 1)
+        .arg(lens.cy(), 0, 'f', 1)
+        .arg(coefficients.isEmpty() ? tr("none") : coefficients.join(QStringLiteral("  "))));
     for (const std::string& warning : camera->file.warnings)
     {
       warnings << QString::fromStdString(warning);

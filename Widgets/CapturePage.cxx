@@ -24,16 +24,27 @@ CapturePage::CapturePage(HandEyeWorkbench& workbench, QWidget* parent)
   connect(ui_->recordingButton, &QPushButton::clicked, this,
     [this]
     {
-      const QString path =
-        QFileDialog::getOpenFileName(this, tr("Recording of placements"), {}, tr("Sequence metafiles (*.mha *.igs.mha);;All files (*)"));
+      const QString path = QFileDialog::getOpenFileName(
+        this, tr("Recording of placements"), {}, tr("Sequence metafiles (*.mha *.igs.mha);;All files (*)"));
       if (!path.isEmpty())
       {
         workbench_.capture().importRecording(path);
       }
     });
+  connect(ui_->loadButton, &QPushButton::clicked, this,
+    [this]
+    {
+      const QString path = QFileDialog::getOpenFileName(this, tr("Calibration"), {}, tr("Calibrations (*.json);;All files (*)"));
+      if (!path.isEmpty())
+      {
+        workbench_.loadCalibration(path);
+      }
+    });
   connect(ui_->table, &SampleTable::excludeRequested, &capture, &CaptureTask::setExcluded);
-  connect(ui_->table, &SampleTable::deleteRequested, &capture, [&capture](const QVector<int>& ids) { capture.setDeleted(ids, true); });
-  connect(ui_->table, &SampleTable::restoreRequested, &capture, [&capture](const QVector<int>& ids) { capture.setDeleted(ids, false); });
+  connect(
+    ui_->table, &SampleTable::deleteRequested, &capture, [&capture](const QVector<int>& ids) { capture.setDeleted(ids, true); });
+  connect(
+    ui_->table, &SampleTable::restoreRequested, &capture, [&capture](const QVector<int>& ids) { capture.setDeleted(ids, false); });
   connect(ui_->nearestSpin, &QDoubleSpinBox::editingFinished, this,
     [this] { workbench_.setWorkingDepths(ui_->nearestSpin->value(), ui_->furthestSpin->value()); });
   connect(ui_->furthestSpin, &QDoubleSpinBox::editingFinished, this,
@@ -117,7 +128,8 @@ void CapturePage::showCalibration()
   ui_->coverage->setNextPlace(next);
   const bool isUsable = calibration && calibration->isUsable();
   const QString verdict = !calibration ? tr("No samples yet.") : QString::fromStdString(calibration->decisive().message);
-  ui_->verdictLabel->setText(workbench_.isEnough() ? tr("<b>Enough.</b> %1").arg(verdict.toHtmlEscaped()) : verdict.toHtmlEscaped());
+  ui_->verdictLabel->setText(
+    workbench_.isEnough() ? tr("<b>Enough.</b> %1").arg(verdict.toHtmlEscaped()) : verdict.toHtmlEscaped());
   const bool isNews = workbench_.isEnough() && !isEnoughSaid_;
   isEnoughSaid_ = isUsable && workbench_.isEnough();
   if (isNews && ui_->soundBox->isChecked())

@@ -50,8 +50,9 @@ struct CaptureSample
   bool takesPart() const { return !isExcluded && !isDeleted; }
 };
 
-/// Collects placements of the ball into a session's folder (io::Session): hands-free when the ball is held still (devices::LiveCapture),
-/// when asked to, or from a recording. A sample is announced once it is on the disk. All work is done beside the window.
+/// Collects placements of the ball into a session's folder (io::Session): hands-free when the ball is held still
+/// (devices::LiveCapture), when asked to, or from a recording. A sample is announced once it is on the disk. All work is done
+/// beside the window.
 ///
 /// Belongs to the thread of the user interface; onFrame() to the work's.
 class CaptureTask : public QObject

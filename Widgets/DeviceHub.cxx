@@ -145,8 +145,9 @@ bool DeviceHub::connectDevices(const DeviceSetup& setup)
   problem_.clear();
   if (setup.kind == DeviceSetup::Kind::Recording && !QFileInfo::exists(setup.recording))
   {
-    problem_ = setup.recording.isEmpty() ? tr("Choose a recording: a sequence metafile (.igs.mha), or a folder with frames and tracking.")
-                                         : tr("There is no recording '%1'.").arg(setup.recording);
+    problem_ = setup.recording.isEmpty()
+      ? tr("Choose a recording: a sequence metafile (.igs.mha), or a folder with frames and tracking.")
+      : tr("There is no recording '%1'.").arg(setup.recording);
   }
   if (setup.kind == DeviceSetup::Kind::Servers && setup.servers.isEmpty() && setup.camera.isEmpty())
   {
@@ -167,8 +168,9 @@ bool DeviceHub::connectDevices(const DeviceSetup& setup)
     emit connectionChanged();
     return false;
   }
-  acquisition_ = std::make_shared<Acquisition>(std::move(sources), pairingOptions(),
-    onSample_ ? onSample_ : [](const devices::DeviceSample&) {}, onFrame_ ? onFrame_ : [](const devices::PairedFrame&) {});
+  acquisition_ = std::make_shared<Acquisition>(
+    std::move(sources), pairingOptions(), onSample_ ? onSample_ : [](const devices::DeviceSample&) {},
+    onFrame_ ? onFrame_ : [](const devices::PairedFrame&) {});
   pollTimer_.start();
   emit connectionChanged();
   poll();
@@ -213,11 +215,11 @@ void DeviceHub::setLatency(double latencySec)
   setNames(setup);
 }
 
-void DeviceHub::playRoom(RoomScene scene)
+void DeviceHub::playRoom(RoomScene scene, int firstPlace)
 {
   if (room_)
   {
-    room_->play(scene);
+    room_->play(scene, firstPlace);
   }
 }
 
@@ -268,7 +270,8 @@ void DeviceHub::poll()
   for (const Acquisition::NamedStatus& source : acquisition_->status())
   {
     const QString sourceName = QString::fromStdString(source.source);
-    const bool isThere = source.status.state == devices::SourceState::Streaming || source.status.state == devices::SourceState::Finished;
+    const bool isThere =
+      source.status.state == devices::SourceState::Streaming || source.status.state == devices::SourceState::Finished;
     if (!isThere || source.status.state == devices::SourceState::Finished || source.status.streams.empty())
     {
       status_ += (status_.isEmpty() ? QString() : QStringLiteral(" ")) + sourceName + QStringLiteral(": ") +
@@ -280,8 +283,8 @@ void DeviceHub::poll()
       stream.name = QString::fromStdString(info.name);
       stream.source = sourceName;
       stream.type = info.type == "pose" ? StreamList::Type::Transform
-        : info.type == "image"         ? StreamList::Type::Video
-                                       : StreamList::Type::Other;
+        : info.type == "image"          ? StreamList::Type::Video
+                                        : StreamList::Type::Other;
       Rate& rate = rates_[stream.name];
       if (nowSec - rate.sinceSec > 1)
       {
@@ -292,7 +295,7 @@ void DeviceHub::poll()
       stream.rateHz = rate.hz;
       stream.ageSec = std::max(0.0, nowSec - info.lastReceivedSec);
       const bool isLate = stream.ageSec > StaleSec && stream.ageSec > 4 / std::max(rate.hz, 1.0);
-      stream.light = !isThere ? StreamList::Light::Lost
+      stream.light = !isThere     ? StreamList::Light::Lost
         : isLate || !info.isValid ? StreamList::Light::Stale
                                   : StreamList::Light::Live;
       stream.message = !isThere ? QString::fromStdString(source.status.message)

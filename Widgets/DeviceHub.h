@@ -41,13 +41,13 @@ struct DeviceSetup
 
   Kind kind = Kind::SimulatedRoom;
   QStringList servers = { QStringLiteral("127.0.0.1:18944") };  ///< HOST or HOST:PORT
-  QString camera;                                              ///< "0" is the first; a file or URL; empty: the video comes from a server
+  QString camera;  ///< "0" is the first; a file or URL; empty: the video comes from a server
   QString recording;
   double replaySpeed = 1;
   QString stylusToTracker = QStringLiteral("StylusToTracker");
   QString markerToTracker = QStringLiteral("MarkerToTracker");
   QString phantomToTracker = QStringLiteral("PhantomToTracker");
-  QString image;         ///< empty: the first that comes
+  QString image;          ///< empty: the first that comes
   double latencySec = 0;  ///< see devices::FramePairingOptions
 };
 
@@ -88,7 +88,7 @@ public:
   void setLatency(double latencySec);
 
   /// What the simulated room does; no effect with other devices.
-  void playRoom(RoomScene scene);
+  void playRoom(RoomScene scene, int firstPlace = 0);
   /// Null with other devices.
   const simulation::RoomOptions* room() const { return room_ ? &room_->options() : nullptr; }
 

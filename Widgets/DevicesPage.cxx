@@ -120,8 +120,8 @@ void DevicesPage::refresh()
   DeviceHub& hub = workbench_.devices();
   const bool isConnected = hub.isConnected();
   ui_->connectButton->setText(isConnected ? tr("Dis&connect") : tr("&Connect"));
-  for (QWidget* widget :
-    std::initializer_list<QWidget*>{ ui_->roomButton, ui_->serversButton, ui_->recordingButton, ui_->serversBox, ui_->recordingBox })
+  for (QWidget* widget : std::initializer_list<QWidget*>{
+         ui_->roomButton, ui_->serversButton, ui_->recordingButton, ui_->serversBox, ui_->recordingBox })
   {
     widget->setEnabled(!isConnected);
   }

@@ -62,10 +62,9 @@ void FinishPage::enter()
 void FinishPage::refresh()
 {
   const QString folder = workbench_.sessionFolder();
-  ui_->sessionLabel->setText(folder.isEmpty()
-      ? tr("No session is open.")
-      : tr("Everything is stored in <a href=\"%1\">%2</a>; nothing needs to be saved.")
-          .arg(QUrl::fromLocalFile(folder).toString(), folder.toHtmlEscaped()));
+  ui_->sessionLabel->setText(folder.isEmpty() ? tr("No session is open.")
+                                              : tr("Everything is stored in <a href=\"%1\">%2</a>; nothing needs to be saved.")
+                                                  .arg(QUrl::fromLocalFile(folder).toString(), folder.toHtmlEscaped()));
   QStringList lines;
   for (const WizardStep step : { WizardStep::Stylus, WizardStep::Capture, WizardStep::Validation, WizardStep::Overlay })
   {

@@ -27,7 +27,6 @@ public:
   void refresh() override;
 
 private:
-
   std::unique_ptr<Ui::FinishPage> ui_;
 };
 

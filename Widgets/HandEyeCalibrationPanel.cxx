@@ -117,7 +117,12 @@ void HandEyeCalibrationPanel::Private::connectAll()
   connect(ui.backButton, &QPushButton::clicked, &q, &HandEyeCalibrationPanel::goBack);
   connect(ui.cancelButton, &QPushButton::clicked, workbench.get(), &HandEyeWorkbench::cancelWork);
   connect(workbench.get(), &HandEyeWorkbench::stateChanged, &q, [this] { refresh(); });
-  connect(workbench.get(), &HandEyeWorkbench::sessionOpened, &q, [this] { refusal.clear(); refresh(); });
+  connect(workbench.get(), &HandEyeWorkbench::sessionOpened, &q,
+    [this]
+    {
+      refusal.clear();
+      refresh();
+    });
   connect(workbench.get(), &HandEyeWorkbench::refused, &q, [this](WizardStep of, const QString& message) { refuse(of, message); });
   const auto forget = [this](WizardStep of)
   {
@@ -162,7 +167,8 @@ void HandEyeCalibrationPanel::Private::connectAll()
       }
     });
   auto* overlay = static_cast<handeye::OverlayPage*>(pages[std::size_t(WizardStep::Overlay)]);
-  connect(overlay, &handeye::OverlayPage::opacityChanged, presenter, [this, overlay] { presenter->setOpacity(overlay->opacity()); });
+  connect(
+    overlay, &handeye::OverlayPage::opacityChanged, presenter, [this, overlay] { presenter->setOpacity(overlay->opacity()); });
   connect(presenter, &handeye::VideoPresenter::overlayProblemChanged, overlay, &handeye::OverlayPage::setOverlayProblem);
 }
 
@@ -199,7 +205,7 @@ void HandEyeCalibrationPanel::Private::refresh()
     const WizardStep each = WizardStep(i);
     const QString missing = workbench->missingFor(each), problem = workbench->problemOf(each);
     steps->setState(each,
-      !missing.isEmpty()                             ? WizardStepBar::State::Blocked
+      !missing.isEmpty()                                  ? WizardStepBar::State::Blocked
         : problem.isEmpty() && each != WizardStep::Finish ? WizardStepBar::State::Done
                                                           : WizardStepBar::State::Open,
       problem);
@@ -333,7 +339,8 @@ bool HandEyeCalibrationPanel::openFile(const QString& path)
   const QString ending = file.suffix().toLower();
   static const QStringList meshes = { QStringLiteral("stl"), QStringLiteral("ply"), QStringLiteral("obj"), QStringLiteral("vtp"),
     QStringLiteral("vtk") };
-  static const QStringList cameras = { QStringLiteral("yml"), QStringLiteral("yaml"), QStringLiteral("xml"), QStringLiteral("txt") };
+  static const QStringList cameras = { QStringLiteral("yml"), QStringLiteral("yaml"), QStringLiteral("xml"),
+    QStringLiteral("txt") };
   if (!file.exists())
   {
     return false;
@@ -369,6 +376,11 @@ bool HandEyeCalibrationPanel::openFile(const QString& path)
   if (d->step == WizardStep::Stylus && ending == QStringLiteral("json"))
   {
     d->workbench->loadStylus(path);
+    return true;
+  }
+  if (d->step == WizardStep::Capture && ending == QStringLiteral("json"))
+  {
+    d->workbench->loadCalibration(path);
     return true;
   }
   if (d->step == WizardStep::Overlay && ending == QStringLiteral("json"))

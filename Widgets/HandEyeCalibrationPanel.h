@@ -18,11 +18,11 @@ class WizardPage;
 enum class WizardStep;
 }  // namespace handeye
 
-/// The module's panel: a wizard from devices to the calibration's export, each page also usable on its own. It fits into a dock of 420
-/// logical px.
+/// The module's panel: a wizard from devices to the calibration's export, each page also usable on its own. It fits into a dock of
+/// 420 logical px.
 ///
-/// In a navigation desktop the live video, the scene, the lights of the streams and the log are the desktop's; without one (in 3D Slicer,
-/// in a window of a test) the panel shows its own video.
+/// In a navigation desktop the live video, the scene, the lights of the streams and the log are the desktop's; without one (in 3D
+/// Slicer, in a window of a test) the panel shows its own video.
 class HandEyeCalibrationPanel : public QWidget
 {
   Q_OBJECT
@@ -47,7 +47,8 @@ public slots:
   void goNext();
   void goBack();
 
-  /// The module is shown, or no longer: the views of the desktop are taken and given back. Showing the panel enters the module, too.
+  /// The module is shown, or no longer: the views of the desktop are taken and given back. Showing the panel enters the module,
+  /// too.
   void enterModule();
   void exitModule();
 

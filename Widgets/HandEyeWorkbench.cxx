@@ -34,8 +34,7 @@ HandEyeWorkbench::HandEyeWorkbench(vtkSlicerHandEyeCalibrationLogic* logic, QObj
   : QObject(parent)
   , logic_(logic)
   , work_(std::make_unique<WorkThread>(
-      [this](const char* message)
-      { tell([this, text = QString::fromUtf8(message)] { emit happened(text); }); }))
+      [this](const char* message) { tell([this, text = QString::fromUtf8(message)] { emit happened(text); }); }))
   , devices_(new DeviceHub(this))
   , live_(new LivePipeline(*work_, this))
   , pivot_(new PivotTask(*work_, this))
@@ -64,8 +63,8 @@ HandEyeWorkbench::~HandEyeWorkbench()
 
 void HandEyeWorkbench::connectTasks()
 {
-  devices_->setHandlers(
-    [this](const devices::DeviceSample& sample) { onSample(sample); }, [this](const devices::PairedFrame& frame) { onFrame(frame); });
+  devices_->setHandlers([this](const devices::DeviceSample& sample) { onSample(sample); },
+    [this](const devices::PairedFrame& frame) { onFrame(frame); });
   live_->addListener(
     [this](const devices::PairedFrame& frame, const std::optional<BallDetection>& ball)
     {
@@ -112,8 +111,8 @@ void HandEyeWorkbench::connectTasks()
     });
   connect(capture_, &CaptureTask::opened, this, &HandEyeWorkbench::takeDocuments);
   connect(capture_, &CaptureTask::failed, this, [this](const QString& message) { refuse(WizardStep::Capture, message); });
-  connect(validationCapture_, &CaptureTask::failed, this,
-    [this](const QString& message) { refuse(WizardStep::Validation, message); });
+  connect(
+    validationCapture_, &CaptureTask::failed, this, [this](const QString& message) { refuse(WizardStep::Validation, message); });
   connect(capture_, &CaptureTask::samplesChanged, this, &HandEyeWorkbench::recalibrate);
   connect(capture_, &CaptureTask::busyChanged, this, &HandEyeWorkbench::recalibrate);
   connect(validationCapture_, &CaptureTask::samplesChanged, this, &HandEyeWorkbench::revalidate);

@@ -45,8 +45,8 @@ enum class WizardStep
 };
 constexpr int WizardStepCount = 8;
 
-/// The wizard without its windows: devices, tasks and results of one session. Every result is stored with the session as soon as it is
-/// there, and comes back when the session is opened again.
+/// The wizard without its windows: devices, tasks and results of one session. Every result is stored with the session as soon as it
+/// is there, and comes back when the session is opened again.
 ///
 /// Frames and units are those of the layers below (mm, px): p_Camera = markerToCamera * p_Marker.
 ///
@@ -122,6 +122,8 @@ public:
   /// The last attempt, usable or not; nothing before the first sample.
   const std::optional<CalibrationStepResult>& calibration() const { return calibration_; }
   const std::optional<ValidationStepResult>& validation() const { return validation_; }
+  /// A calibration.json of another time, with its lens, tip and ball, to be validated or drawn with; samples make a new one.
+  void loadCalibration(const QString& path);
   void setWorkingDepths(double nearestMm, double furthestMm);
   double nearestMm() const { return nearestMm_; }
   double furthestMm() const { return furthestMm_; }
@@ -188,6 +190,7 @@ private:
   void recalibrate();
   void calibrateNow();
   void takeCalibration(const CalibrationStepResult& result);
+  void giveToLogic();
   void revalidate();
   void refuse(WizardStep step, const QString& message);
   /// Work beside the window; what it throws is a refusal of the step.
@@ -210,6 +213,7 @@ private:
   std::optional<Stylus> stylus_;
   Ball ball_;
   std::optional<CalibrationStepResult> calibration_;
+  bool isCalibrationLoaded_ = false;  ///< from a file: there are no samples of it
   std::optional<ValidationStepResult> validation_;
   double nearestMm_ = 160, furthestMm_ = 420, enoughPx_ = 1.5;
   bool isCalibrationAsked_ = false, isCalibrating_ = false, isCalibrationStale_ = false;

@@ -12,6 +12,7 @@
 #include <QCoreApplication>
 #include <QFileInfo>
 
+#include <fstream>
 #include <utility>
 
 namespace handeye
@@ -27,6 +28,13 @@ QString meshFile(const char* name)
     QCoreApplication::applicationDirPath() + QStringLiteral("/../share/handeye/Meshes/") + QString::fromLatin1(name);
   const QString source = QStringLiteral(HANDEYE_MESHES_DIR "/") + QString::fromLatin1(name);
   return QFileInfo::exists(installed) ? installed : QFileInfo::exists(source) ? source : QString();
+}
+
+/// A result file that was read already by the reader of its kind.
+nlohmann::json readDocument(const std::filesystem::path& path)
+{
+  std::ifstream file(path);
+  return nlohmann::json::parse(file);
 }
 
 }  // namespace
@@ -56,6 +64,11 @@ void HandEyeWorkbench::calibrateNow()
   }
   const std::vector<CapturedFrame> frames = capture_->frames();
   const std::optional<CaptureInputs>& inputs = capture_->inputs();
+  if (isCalibrationLoaded_ && capture_->samples().isEmpty())
+  {
+    return;
+  }
+  isCalibrationLoaded_ = false;
   if (!inputs)
   {
     calibration_.reset();
@@ -104,14 +117,58 @@ void HandEyeWorkbench::takeCalibration(const CalibrationStepResult& result)
   {
     store("calibration", calibrationJson(result));
   }
-  if (logic_ && result.isUsable() && capture_->isOpen())
+  if (result.isUsable())
   {
-    // The file is there once the work before this is done.
-    const QString file = documentPath(QStringLiteral("calibration"));
-    work_->post([this, file] { tell([this, file] { logic_->LoadCalibration(file.toStdString()); }); });
+    giveToLogic();
   }
   emit calibrationChanged();
   revalidate();
+}
+
+/// The session's calibration.json, which is there once the work before this is done.
+void HandEyeWorkbench::giveToLogic()
+{
+  if (logic_ && capture_->isOpen())
+  {
+    const QString file = documentPath(QStringLiteral("calibration"));
+    work_->post([this, file] { tell([this, file] { logic_->LoadCalibration(file.toStdString()); }); });
+  }
+}
+
+void HandEyeWorkbench::loadCalibration(const QString& path)
+{
+  if (!capture_->samples().isEmpty())
+  {
+    refuse(WizardStep::Capture, tr("This session has samples of its own. Begin a new session to load a calibration."));
+    return;
+  }
+  beside(WizardStep::Capture,
+    [this, path]
+    {
+      const std::filesystem::path file = path.toStdString();
+      const StoredCalibration stored = readCalibration(file);
+      nlohmann::json document = readDocument(file);
+      tell(
+        [this, stored, document, path]
+        {
+          CalibrationStepResult loaded{ {}, stored.camera, {}, stored.tools, stored.tip_Stylus, stored.ballRadiusMm, {}, {} };
+          loaded.calibration.status = HandEyeCalibrationResult::Status::Ok;
+          loaded.calibration.markerToCamera = stored.markerToCamera;
+          loaded.calibration.message = tr("loaded from %1").arg(path).toStdString();
+          isCalibrationLoaded_ = true;
+          calibration_ = loaded;
+          store("calibration", document);
+          ball_.radiusMm = stored.ballRadiusMm;
+          storeBall();
+          stylus_ = Stylus{ stored.tip_Stylus, Eigen::Matrix3d::Zero(), 0, tr("of the calibration %1").arg(path), {} };
+          emit stylusChanged();
+          emit ballChanged();
+          setCamera({ stored.camera, stored.markerToCamera, "calibration.json", {} }, path);
+          giveToLogic();
+          emit calibrationChanged();
+          revalidate();
+        });
+    });
 }
 
 void HandEyeWorkbench::revalidate()
@@ -225,8 +282,9 @@ void HandEyeWorkbench::loadRegistration(const QString& path)
     {
       const Eigen::Isometry3d modelToPhantom = readPhantomRegistration(path.toStdString());
       tell(
-        [this, modelToPhantom]
+        [this, modelToPhantom, document = readDocument(path.toStdString())]
         {
+          store("phantom", document);
           registration_.reset();
           modelToPhantom_ = modelToPhantom;
           emit registrationChanged();

@@ -55,6 +55,7 @@ void HandEyeWorkbench::openSession(const QString& folder)
   stylus_.reset();
   ball_ = {};
   calibration_.reset();
+  isCalibrationLoaded_ = false;
   validation_.reset();
   modelToPhantom_.reset();
   registration_.reset();
@@ -167,6 +168,10 @@ void HandEyeWorkbench::restoreFiles(const std::map<std::string, json>& documents
           text(stylus, "message", {}), stylus };
         tell([this, restored] { setStylus(restored, false); });
       });
+  }
+  if (entry(documents, "calibration").is_object() && QDir(capture_->folder() + QStringLiteral("/samples")).isEmpty())
+  {
+    loadCalibration(documentPath(QStringLiteral("calibration")));
   }
   if (const json model = entry(documents, "model"); model.is_object())
   {

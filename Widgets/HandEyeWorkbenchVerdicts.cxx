@@ -64,14 +64,14 @@ QString HandEyeWorkbench::problemOf(WizardStep step) const
         : calibration_                                ? QString::fromStdString(calibration_->decisive().message)
                                                       : tr("Collect placements of the ball.");
     case WizardStep::Validation:
-      return validation_ && validation_->isUsable() ? QString()
-                                                    : tr("Hold the ball at a few other places, so that the calibration is tested on them.");
-    case WizardStep::Overlay:
-      return !model_ ? tr("Load a model.")
-        : modelToPhantom_
+      return validation_ && validation_->isUsable()
         ? QString()
-        : registration_ ? QString::fromStdString(registration_->message)
-                        : tr("Register the phantom: touch its landmarks, or load a registration.");
+        : tr("Hold the ball at a few other places, so that the calibration is tested on them.");
+    case WizardStep::Overlay:
+      return !model_      ? tr("Load a model.")
+        : modelToPhantom_ ? QString()
+        : registration_   ? QString::fromStdString(registration_->message)
+                          : tr("Register the phantom: touch its landmarks, or load a registration.");
     case WizardStep::Finish:
       return {};
   }

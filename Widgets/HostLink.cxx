@@ -27,7 +27,8 @@ NavigationHost::StreamLight toHostLight(StreamList::Light light)
 std::optional<Eigen::Isometry3d> poseOf(const devices::PairedFrame& frame, const QString& name)
 {
   const auto pose = frame.poses.find(name.toStdString());
-  return pose != frame.poses.end() && pose->second.isUsable() ? std::optional<Eigen::Isometry3d>(pose->second.transform) : std::nullopt;
+  return pose != frame.poses.end() && pose->second.isUsable() ? std::optional<Eigen::Isometry3d>(pose->second.transform)
+                                                              : std::nullopt;
 }
 
 }  // namespace
@@ -131,7 +132,8 @@ void HostLink::showResults()
     {
       if (frame.captured.tip_Marker)
       {
-        points.push_back({ *frame.captured.tip_Marker, isUsable ? std::optional<double>(frame.residualPx) : std::nullopt, frame.used });
+        points.push_back(
+          { *frame.captured.tip_Marker, isUsable ? std::optional<double>(frame.residualPx) : std::nullopt, frame.used });
       }
     }
   }

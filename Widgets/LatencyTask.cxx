@@ -24,8 +24,8 @@ void LatencyTask::start(const CameraModel& camera, const Eigen::Vector3d& tip_St
   options.maximumRepeatSec = 0;
   {
     const std::lock_guard lock(mutex_);
-    collection_ = Collection{ markerToTracker.toStdString(), stylusToTracker.toStdString(), PoseTrack(options), PoseTrack(options), {},
-      seconds, -1 };
+    collection_ = Collection{ markerToTracker.toStdString(), stylusToTracker.toStdString(), PoseTrack(options), PoseTrack(options),
+      {}, seconds, -1 };
   }
   camera_ = camera;
   tip_Stylus_ = tip_Stylus;

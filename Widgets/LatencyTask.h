@@ -33,8 +33,8 @@ public:
   explicit LatencyTask(WorkThread& work, QObject* parent = nullptr);
 
   /// Collects for some seconds; measured() or refused() follow.
-  void start(const CameraModel& camera, const Eigen::Vector3d& tip_Stylus, const QString& markerToTracker, const QString& stylusToTracker,
-    double seconds = 6);
+  void start(const CameraModel& camera, const Eigen::Vector3d& tip_Stylus, const QString& markerToTracker,
+    const QString& stylusToTracker, double seconds = 6);
   void cancel();
   bool isRunning() const { return isRunning_; }
 

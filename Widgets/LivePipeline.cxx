@@ -66,16 +66,16 @@ void LivePipeline::lookForBall(LiveView& view)
   {
     if (!tracker_)
     {
-      tracker_ = std::make_unique<BallTracker>(BallDetector(
-        active_.camera->withImageSize(view.image().cols, view.image().rows), active_.ballRadiusMm, active_.detection));
+      tracker_ = std::make_unique<BallTracker>(
+        BallDetector(active_.camera->withImageSize(view.image().cols, view.image().rows), active_.ballRadiusMm, active_.detection));
     }
     view.ball = tracker_->next(view.image());
     const double nowSec = devices::systemTimeSec();
     if (active_.drawsStages && nowSec - stagesSec_ > StagesEachSec)
     {
       stagesSec_ = nowSec;
-      view.stages = drawBallStages(view.image(), *view.ball,
-        active_.camera->withImageSize(view.image().cols, view.image().rows), active_.ballRadiusMm, active_.detection);
+      view.stages = drawBallStages(view.image(), *view.ball, active_.camera->withImageSize(view.image().cols, view.image().rows),
+        active_.ballRadiusMm, active_.detection);
     }
   }
   catch (const std::exception& error)

@@ -34,8 +34,9 @@ struct LiveView
   const cv::Mat& image() const { return frame.image.frame()->image; }
 };
 
-/// What happens to each frame of the live video beside the window: the ball is looked for, who listens is told (captures, a measurement
-/// of the latency), and the frame is handed to the window. Frames that come too fast are left out, in the work as in the window.
+/// What happens to each frame of the live video beside the window: the ball is looked for, who listens is told (captures, a
+/// measurement of the latency), and the frame is handed to the window. Frames that come too fast are left out, in the work as in
+/// the window.
 ///
 /// Belongs to the thread of the user interface; take() may be called from any.
 class LivePipeline : public QObject

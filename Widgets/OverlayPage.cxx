@@ -8,6 +8,8 @@
 #include <QFileDialog>
 #include <QFileInfo>
 
+#include <algorithm>
+
 namespace handeye
 {
 
@@ -34,6 +36,7 @@ OverlayPage::OverlayPage(HandEyeWorkbench& workbench, QWidget* parent)
     });
   connect(ui_->opacitySlider, &QSlider::valueChanged, this, &OverlayPage::opacityChanged);
   connect(ui_->landmarks, &LandmarkPanel::touchRequested, this, &OverlayPage::takeTip);
+  connect(ui_->landmarks, &LandmarkPanel::currentLandmarkChanged, this, &OverlayPage::playRoom);
   connect(ui_->landmarks, &LandmarkPanel::pairsChanged, this,
     [this]
     {
@@ -62,6 +65,17 @@ void OverlayPage::enter()
   if (ui_->landmarks->landmarks().isEmpty() && !HandEyeWorkbench::ownLandmarks().isEmpty())
   {
     ui_->landmarks->loadModelLandmarks(HandEyeWorkbench::ownLandmarks());
+  }
+  playRoom();
+}
+
+/// The simulated room's stylus goes to the landmark that is asked for.
+void OverlayPage::playRoom()
+{
+  const int landmark = ui_->landmarks->currentLandmark();
+  if (workbench_.step() == WizardStep::Overlay)
+  {
+    workbench_.devices().playRoom(landmark < 0 ? RoomScene::Free : RoomScene::Landmarks, std::max(landmark, 0));
   }
 }
 

@@ -36,6 +36,7 @@ signals:
   void opacityChanged();
 
 private:
+  void playRoom();
   void followTip();
   void takeTip();
   void showRegistration();

@@ -70,7 +70,7 @@ private:
   State state_;
   QTimer timer_;
 
-  std::mutex mutex_;  ///< of what follows
+  std::mutex mutex_;                           ///< of what follows
   std::shared_ptr<PivotCollector> collector_;  ///< null while nothing is collected
   std::string name_;
 };

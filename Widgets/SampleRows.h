@@ -13,7 +13,8 @@ namespace handeye
 {
 
 /// The samples of a capture as the table shows them, with what the calibration made of each.
-QVector<SampleRow> calibrationRows(const QMap<int, CaptureSample>& samples, const std::optional<CalibrationStepResult>& calibration);
+QVector<SampleRow> calibrationRows(
+  const QMap<int, CaptureSample>& samples, const std::optional<CalibrationStepResult>& calibration);
 
 /// The samples of a validation, with the projection error of each.
 QVector<SampleRow> validationRows(const QMap<int, CaptureSample>& samples, const std::optional<ValidationStepResult>& validation);

@@ -53,11 +53,12 @@ int SimulatedRoomServer::port() const
   return server_->port();
 }
 
-void SimulatedRoomServer::play(RoomScene scene)
+void SimulatedRoomServer::play(RoomScene scene, int firstPlace)
 {
   {
     const std::lock_guard lock(mutex_);
     scene_ = scene;
+    firstPlace_ = firstPlace;
     ++sceneCount_;
   }
   changed_.notify_all();
@@ -81,6 +82,7 @@ simulation::RoomOptions SimulatedRoomServer::optionsOf(RoomScene scene) const
       break;
     case RoomScene::Landmarks:
       options.motion = room_.landmarks_Model.empty() ? simulation::RoomMotion::Free : simulation::RoomMotion::Landmarks;
+      options.holdSec = 4;  // until it is taken: the next landmark is begun with then
       break;
     case RoomScene::Free:
       options.motion = simulation::RoomMotion::Free;
@@ -95,7 +97,7 @@ void SimulatedRoomServer::run()
   std::map<RoomScene, std::unique_ptr<simulation::SimulatedRoom>> rooms;
   RoomScene scene = RoomScene::Free;
   int sceneCount = -1;
-  double sceneBeginSec = 0;
+  double sceneBeginSec = 0, skippedSec = 0;
   long poseIndex = 0, frameIndex = 0;
   std::unique_lock lock(mutex_);
   while (!isEnding_)
@@ -104,9 +106,11 @@ void SimulatedRoomServer::run()
     {
       scene = scene_;
       sceneCount = sceneCount_;
+      const simulation::RoomOptions options = optionsOf(scene);
+      skippedSec = firstPlace_ * (options.holdSec + options.moveSec);
       lock.unlock();
       std::unique_ptr<simulation::SimulatedRoom>& room = rooms[scene];
-      room = room ? std::move(room) : std::make_unique<simulation::SimulatedRoom>(optionsOf(scene));
+      room = room ? std::move(room) : std::make_unique<simulation::SimulatedRoom>(options);
       sceneBeginSec = devices::systemTimeSec();
       poseIndex = frameIndex = 0;
       lock.lock();
@@ -122,14 +126,15 @@ void SimulatedRoomServer::run()
     lock.unlock();
     if (nextPoseSec <= nextFrameSec)
     {
-      sendPoses(*server_, *rooms[scene], nextPoseSec, sceneBeginSec + nextPoseSec);
+      sendPoses(*server_, *rooms[scene], nextPoseSec + skippedSec, sceneBeginSec + nextPoseSec);
       ++poseIndex;
     }
     else
     {
       if (server_->clientCount() > 0)
       {
-        server_->send(devices::packImage(ImageName, sceneBeginSec + nextFrameSec, rooms[scene]->picture(nextFrameSec)));
+        server_->send(
+          devices::packImage(ImageName, sceneBeginSec + nextFrameSec, rooms[scene]->picture(nextFrameSec + skippedSec)));
       }
       const double behindSec = devices::systemTimeSec() - sceneBeginSec - nextFrameSec;
       frameIndex += 1 + std::max(0L, long(behindSec * FramesPerSec) - 1);

@@ -21,15 +21,15 @@ class OpenIGTLinkServer;
 /// What the people in the simulated room do; they follow the page of the wizard.
 enum class RoomScene
 {
-  Pivot,              ///< the stylus turns about its resting tip
-  Placements,         ///< the ball is held at one place after another
-  OtherPlacements,    ///< the same at other places: what a calibration is validated on
-  Free,               ///< the ball moves through the view
-  Landmarks           ///< the landmarks of the phantom are touched one after another
+  Pivot,            ///< the stylus turns about its resting tip
+  Placements,       ///< the ball is held at one place after another
+  OtherPlacements,  ///< the same at other places: what a calibration is validated on
+  Free,             ///< the ball moves through the view
+  Landmarks         ///< the landmarks of the phantom are touched one after another
 };
 
-/// A simulated operating room (see simulation::SimulatedRoom) that is served over OpenIGTLink on 127.0.0.1 by a thread of its own, on a
-/// port that is free; who listens comes through the network like for any other tracker.
+/// A simulated operating room (see simulation::SimulatedRoom) that is served over OpenIGTLink on 127.0.0.1 by a thread of its own,
+/// on a port that is free; who listens comes through the network like for any other tracker.
 ///
 /// All functions may be called from any thread.
 class SimulatedRoomServer
@@ -46,7 +46,8 @@ public:
   const simulation::RoomOptions& options() const { return room_; }
 
   /// Begins the scene anew, also if it is the one that is played.
-  void play(RoomScene scene);
+  /// @param firstPlace of the scenes with places or landmarks: where it begins
+  void play(RoomScene scene, int firstPlace = 0);
 
 private:
   void run();
@@ -57,6 +58,7 @@ private:
   std::mutex mutex_;
   std::condition_variable changed_;
   RoomScene scene_ = RoomScene::Free;
+  int firstPlace_ = 0;
   int sceneCount_ = 0;  ///< how often play() was called
   bool isEnding_ = false;
   std::thread thread_;

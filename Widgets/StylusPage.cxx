@@ -33,8 +33,8 @@ StylusPage::StylusPage(HandEyeWorkbench& workbench, QWidget* parent)
   connect(ui_->recordingButton, &QPushButton::clicked, this,
     [this]
     {
-      const QString path =
-        QFileDialog::getOpenFileName(this, tr("Recording of the pivoting"), {}, tr("Sequence metafiles (*.mha *.igs.mha);;All files (*)"));
+      const QString path = QFileDialog::getOpenFileName(
+        this, tr("Recording of the pivoting"), {}, tr("Sequence metafiles (*.mha *.igs.mha);;All files (*)"));
       if (!path.isEmpty())
       {
         workbench_.pivot().calibrateRecording(path, workbench_.devices().setup().stylusToTracker);
@@ -69,9 +69,9 @@ void StylusPage::showProgress()
                              .arg(state.counts.invalid)
                              .arg(state.counts.disagreeing));
   const bool isHidden = workbench_.devices().stream(workbench_.devices().setup().stylusToTracker).light != StreamList::Light::Live;
-  ui_->dome->setHint(isHidden ? tr("the tracker does not see the stylus")
-      : state.hasTipMoved     ? tr("the tip has moved: start again")
-      : state.isEnough        ? tr("enough")
+  ui_->dome->setHint(isHidden                         ? tr("the tracker does not see the stylus")
+      : state.hasTipMoved                             ? tr("the tip has moved: start again")
+      : state.isEnough                                ? tr("enough")
       : !estimate.isUsable() && state.counts.kept > 0 ? QString::fromStdString(estimate.message)
                                                       : tr("lean it in all directions"));
   if (state.isEnough && state.coverage.share() > 0.7)

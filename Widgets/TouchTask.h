@@ -22,7 +22,8 @@ class TouchTask
 {
 public:
   /// Another stylus, or another phantom: begins anew.
-  void reset(const std::optional<Eigen::Vector3d>& tip_Stylus, const std::string& stylusToTracker, const std::string& phantomToTracker);
+  void reset(
+    const std::optional<Eigen::Vector3d>& tip_Stylus, const std::string& stylusToTracker, const std::string& phantomToTracker);
 
   void add(const devices::PairedFrame& frame);
 

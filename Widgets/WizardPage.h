@@ -9,8 +9,8 @@
 namespace handeye
 {
 
-/// One page of the wizard. It shows what the workbench has and asks it for more; whether a page's result is usable, and why not, says the
-/// workbench (HandEyeWorkbench::problemOf()).
+/// One page of the wizard. It shows what the workbench has and asks it for more; whether a page's result is usable, and why not,
+/// says the workbench (HandEyeWorkbench::problemOf()).
 class WizardPage : public QWidget
 {
   Q_OBJECT

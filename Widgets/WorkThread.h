@@ -12,8 +12,8 @@
 namespace handeye
 {
 
-/// The thread beside the window: work is done in the order in which it was posted, and newest-only work (the frames of a video) whenever
-/// nothing else waits. What takes longer asks isCancelled() between its steps.
+/// The thread beside the window: work is done in the order in which it was posted, and newest-only work (the frames of a video)
+/// whenever nothing else waits. What takes longer asks isCancelled() between its steps.
 ///
 /// An exception that leaves a piece of work goes to the handler given, in this thread; nothing ends because of it.
 ///

@@ -63,8 +63,9 @@ RoomOptions::RoomOptions()
 void RoomOptions::check() const
 {
   const bool isGood = camera.hasImageSize() && ballRadiusMm > 0 && placeCount > 0 && holdSec > 0 && moveSec > 0 &&
-    (motion != RoomMotion::Landmarks || !landmarks_Model.empty()) && nearestMm > 2 * ballRadiusMm && furthestMm > nearestMm && trackingSigmaMm >= 0 && trackingSigmaDeg >= 0 && dropOutShare >= 0 &&
-    dropOutShare < 1 && imageNoise >= 0 && blurPx >= 0 && std::isfinite(videoDelaySec) && tip_Stylus.norm() > 1;
+    (motion != RoomMotion::Landmarks || !landmarks_Model.empty()) && nearestMm > 2 * ballRadiusMm && furthestMm > nearestMm &&
+    trackingSigmaMm >= 0 && trackingSigmaDeg >= 0 && dropOutShare >= 0 && dropOutShare < 1 && imageNoise >= 0 && blurPx >= 0 &&
+    std::isfinite(videoDelaySec) && tip_Stylus.norm() > 1;
   if (!isGood)
   {
     throw std::invalid_argument(

@@ -10,7 +10,8 @@
 
 #include <memory>
 
-/// An OpenIGTLink server with a stylus and a marker that lie still, and a grey video without a ball; whatever can go wrong, does when told.
+/// An OpenIGTLink server with a stylus and a marker that lie still, and a grey video without a ball; whatever can go wrong, does
+/// when told.
 class FaultyServer : public QObject
 {
 public:

@@ -47,10 +47,7 @@ public:
   }
 
   static void click(QAbstractButton* button) { QTest::mouseClick(button, Qt::LeftButton); }
-  static void check(QAbstractButton* box)
-  {
-    QTest::mouseClick(box, Qt::LeftButton, Qt::NoModifier, QPoint(8, box->height() / 2));
-  }
+  static void check(QAbstractButton* box) { QTest::mouseClick(box, Qt::LeftButton, Qt::NoModifier, QPoint(8, box->height() / 2)); }
 
   bool canGoNext() const { return find("nextButton")->isEnabled() && find("nextButton")->isVisible(); }
   /// Why Next is closed, and what was refused, as they stand on the screen.
@@ -67,8 +64,8 @@ private:
   HandEyeCalibrationPanel& panel_;
 };
 
-/// For how long the event loop did not come round: by the clock, and by what the window's thread itself worked in that time. On a machine
-/// that is shared, or that draws OpenGL in software with threads of its own, only the second says something of the program.
+/// For how long the event loop did not come round: by the clock, and by what the window's thread itself worked in that time. On a
+/// machine that is shared, or that draws OpenGL in software with threads of its own, only the second says something of the program.
 class StallMeter : public QObject
 {
 public:

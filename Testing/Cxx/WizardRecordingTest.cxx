@@ -52,7 +52,8 @@ void expectTruth(const HandEyeWorkbench& workbench)
   Eigen::Matrix<double, 6, 1> motion;
   motion << turn.angle() * turn.axis(), error.translation();
   const double mahalanobis = std::sqrt(motion.dot(workbench.calibration()->calibration.covariance.ldlt().solve(motion)));
-  qInfo("off the truth by %.3f deg, %.2f mm, %.1f sigma (6 freedoms)", turn.angle() * 57.2958, error.translation().norm(), mahalanobis);
+  qInfo(
+    "off the truth by %.3f deg, %.2f mm, %.1f sigma (6 freedoms)", turn.angle() * 57.2958, error.translation().norm(), mahalanobis);
   QVERIFY(mahalanobis < 4.5);  // the 99.7 % quantile of chi with 6 degrees of freedom, what 3 sigma are for one
   QVERIFY(turn.angle() < 0.5 / 57.2958);
   QVERIFY(error.translation().norm() < 3);
@@ -110,6 +111,7 @@ private slots:
   void samples_ExcludeDeleteUndoRedo();
   void session_ReopenedBringsEverythingBack();
   void session_KilledKeepsWhatWasAnnounced();
+  void calibrationOfAnotherTime_IsValidated();
 };
 
 void WizardRecordingTest::recording_FromFirstPageToLast()
@@ -162,8 +164,8 @@ void WizardRecordingTest::recording_FromFirstPageToLast()
   QVERIFY(!driver.canGoNext());
   QVERIFY2(driver.reason().contains(QStringLiteral("Register the phantom")), qPrintable(driver.reason()));
   const QTemporaryDir folder;
-  const auto landmarks = handeye::readLandmarkLists(
-    demo("phantom_model_points.txt").toStdString(), demo("phantom_touched_points.txt").toStdString());
+  const auto landmarks =
+    handeye::readLandmarkLists(demo("phantom_model_points.txt").toStdString(), demo("phantom_touched_points.txt").toStdString());
   const QString phantom = folder.filePath(QStringLiteral("phantom.json"));
   handeye::writeJson(
     phantom.toStdString(), handeye::phantomJson(handeye::registerLandmarks(landmarks.points_Model, landmarks.points_Phantom)));
@@ -224,7 +226,7 @@ void WizardRecordingTest::session_ReopenedBringsEverythingBack()
   int samples = 0, excluded = -1, deleted = -1, validated = 0;
   {
     HandEyeCalibrationPanel panel(nullptr, nullptr);
-  printRefusals(panel);
+    printRefusals(panel);
     HandEyeWorkbench& workbench = panel.workbench();
     workbench.openSession(folder);
     QSignalSpy opened(&workbench, &HandEyeWorkbench::sessionOpened);
@@ -241,7 +243,8 @@ void WizardRecordingTest::session_ReopenedBringsEverythingBack()
     panel.goTo(WizardStep::Validation);
     QVERIFY(panel.openFile(demo("validation")));
     QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && !workbench.validationCapture().isBusy(), PatienceMs);
-    QTRY_COMPARE_WITH_TIMEOUT(workbench.validation()->projectionErrorPx.count, workbench.validationCapture().samples().size(), PatienceMs);
+    QTRY_COMPARE_WITH_TIMEOUT(
+      workbench.validation()->projectionErrorPx.count, workbench.validationCapture().samples().size(), PatienceMs);
     validated = workbench.validation()->projectionErrorPx.count;
     markerToCamera = workbench.calibration()->calibration.markerToCamera;
   }
@@ -255,7 +258,8 @@ void WizardRecordingTest::session_ReopenedBringsEverythingBack()
   QVERIFY(workbench.capture().samples()[deleted].isDeleted);
   QVERIFY(workbench.camera()->origin.endsWith(QStringLiteral("camera.yml")));
   QVERIFY(workbench.calibration()->calibration.markerToCamera.isApprox(markerToCamera, 1e-9));
-  for (const WizardStep step : { WizardStep::Camera, WizardStep::Stylus, WizardStep::Ball, WizardStep::Capture, WizardStep::Validation })
+  for (const WizardStep step :
+    { WizardStep::Camera, WizardStep::Stylus, WizardStep::Ball, WizardStep::Capture, WizardStep::Validation })
   {
     QVERIFY2(workbench.problemOf(step).isEmpty(), qPrintable(workbench.problemOf(step)));
   }
@@ -277,6 +281,30 @@ void WizardRecordingTest::session_KilledKeepsWhatWasAnnounced()
   QVERIFY(panel.openFile(folder));
   QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().capture().samples().size() >= announced, PatienceMs);
   QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().calibration() && panel.workbench().calibration()->isUsable(), PatienceMs);
+}
+
+void WizardRecordingTest::calibrationOfAnotherTime_IsValidated()
+{
+  const QTemporaryDir parent;
+  const QString file = parent.filePath(QStringLiteral("calibration.json"));
+  {
+    HandEyeCalibrationPanel panel(nullptr, nullptr);
+    loadInputs(panel);
+    importCapture(panel);
+    const QString stored = panel.workbench().documentPath(QStringLiteral("calibration"));
+    QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(stored) && QFile::copy(stored, file), PatienceMs);
+  }
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  testing_widgets::show(panel, QSize(1280, 800));
+  WizardDriver driver(panel);
+  panel.goTo(WizardStep::Capture);
+  QVERIFY(!driver.canGoNext());
+  QVERIFY(panel.openFile(file));
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
+  driver.click(driver.find("nextButton"));
+  QVERIFY(panel.openFile(demo("validation")));
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext(), PatienceMs);
+  QVERIFY(panel.workbench().validation()->projectionErrorPx.mean < 3);
 }
 
 int main(int argc, char** argv)

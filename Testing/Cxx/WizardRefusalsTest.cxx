@@ -146,7 +146,8 @@ void WizardRefusalsTest::recording_ThatIsNotThere()
   driver_->check(driver_->onPage<QRadioButton>("recordingButton"));
   driver_->onPage<QLineEdit>("recordingEdit")->setText(QStringLiteral("/nowhere/pivot.igs.mha"));
   driver_->click(driver_->onPage("connectButton"));
-  QTRY_VERIFY_WITH_TIMEOUT(driver_->message().contains(QStringLiteral("There is no recording '/nowhere/pivot.igs.mha'")), PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(
+    driver_->message().contains(QStringLiteral("There is no recording '/nowhere/pivot.igs.mha'")), PatienceMs);
 }
 
 void WizardRefusalsTest::wrongFile_AsCamera()
@@ -241,7 +242,8 @@ void WizardRefusalsTest::tracker_ThatIsLost()
   panel_->goTo(WizardStep::Capture);
   auto* hint = driver_->onPage<QLabel>("hintLabel");
   QTRY_VERIFY_WITH_TIMEOUT(hint->text().contains(QStringLiteral("StylusToTracker")), PatienceMs);
-  QTRY_COMPARE_WITH_TIMEOUT(workbench().devices().stream(QStringLiteral("StylusToTracker")).light, handeye::StreamList::Light::Stale, PatienceMs);
+  QTRY_COMPARE_WITH_TIMEOUT(
+    workbench().devices().stream(QStringLiteral("StylusToTracker")).light, handeye::StreamList::Light::Stale, PatienceMs);
   driver_->click(driver_->onPage("takeButton"));
   QTRY_VERIFY_WITH_TIMEOUT(driver_->message().contains(QStringLiteral("StylusToTracker")), PatienceMs);
   server.stop();

@@ -45,7 +45,8 @@ QStringList faultsOf(QWidget& page)
     const auto* label = qobject_cast<QLabel*>(child);
     const bool wraps = label && label->wordWrap();
     const int needed = wraps ? label->heightForWidth(label->width()) : child->minimumSizeHint().height();
-    const QString name = child->objectName().isEmpty() ? QString::fromLatin1(child->metaObject()->className()) : child->objectName();
+    const QString name =
+      child->objectName().isEmpty() ? QString::fromLatin1(child->metaObject()->className()) : child->objectName();
     if (child->height() < needed || (!wraps && child->width() < child->minimumSizeHint().width()))
     {
       faults << QStringLiteral("%1 is cut off (%2 x %3)").arg(name).arg(child->width()).arg(child->height());
@@ -90,6 +91,14 @@ void WizardScreensTest::fill(HandEyeCalibrationPanel& panel)
   QTRY_VERIFY_WITH_TIMEOUT(workbench.calibration() && workbench.calibration()->isUsable(), PatienceMs);
   panel.goTo(WizardStep::Validation);
   QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count >= 4, PatienceMs);
+  const handeye::simulation::RoomOptions& room = *workbench.devices().room();
+  std::vector<Eigen::Vector3d> points_Phantom;
+  for (const Eigen::Vector3d& landmark_Model : room.landmarks_Model)
+  {
+    points_Phantom.push_back(room.modelToPhantom * landmark_Model);
+  }
+  workbench.registerLandmarks(room.landmarks_Model, points_Phantom);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.modelToPhantom().has_value(), PatienceMs);
 }
 
 void WizardScreensTest::takePictures(HandEyeCalibrationPanel& panel, const QSize& size, const QString& mark)
@@ -101,7 +110,8 @@ void WizardScreensTest::takePictures(HandEyeCalibrationPanel& panel, const QSize
     QTest::qWait(i == int(WizardStep::Overlay) ? 4000 : 700);
     // The video is drawn by OpenGL: it is taken from the screen.
     const QPixmap picture = panel.screen()->grabWindow(panel.winId());
-    const QString name = QStringLiteral("%1/wizard-%2-%3%4x%5.png").arg(screenshotFolder()).arg(i + 1).arg(mark).arg(size.width()).arg(size.height());
+    const QString name =
+      QStringLiteral("%1/wizard-%2-%3%4x%5.png").arg(screenshotFolder()).arg(i + 1).arg(mark).arg(size.width()).arg(size.height());
     QVERIFY2(picture.save(name), qPrintable(name));
     const QWidget* page = panel.page(WizardStep(i));
     for (const QString& fault : faultsOf(*panel.page(WizardStep(i))))
@@ -109,7 +119,7 @@ void WizardScreensTest::takePictures(HandEyeCalibrationPanel& panel, const QSize
       faults_ << QStringLiteral("page %1: %2").arg(i + 1).arg(fault);
     }
     const auto* area = panel.findChild<QScrollArea*>(QStringLiteral("scrollArea"));
-    if (page->minimumSizeHint().width() > 408 || page->width() > area->viewport()->width())
+    if (page->minimumSizeHint().width() > 394 || page->width() > area->viewport()->width())
     {
       faults_ << QStringLiteral("page %1 needs %2 px").arg(i + 1).arg(page->minimumSizeHint().width());
     }

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CaptureTask.h"
+#include "LiveCapture.h"
+#include "Session.h"
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+namespace handeye
+{
+
+/// What belongs to the work's thread.
+struct CaptureTask::Work
+{
+  std::optional<io::Session> session;
+  std::optional<CaptureInputs> inputs;
+  std::unique_ptr<devices::LiveCapture> live;
+  std::set<int> deleted;
+  bool isHandsFree = false, isTakeAsked = false;
+  devices::LiveCapture::Step::Status lastStatus = devices::LiveCapture::Step::Status::Accepted;
+  std::string lastMessage;
+
+  /// The places that are taken are looked at anew.
+  void renewLive();
+  /// A stored sample with the inputs as they are.
+  CaptureSample evaluate(int id) const;
+};
+
+}  // namespace handeye
