@@ -17,6 +17,7 @@
 #include <vtkTextProperty.h>
 
 #include <QActionGroup>
+#include <QElapsedTimer>
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -56,6 +57,9 @@ vtkStandardNewMacro(TrackballStyle);
 
 }  // namespace
 
+static constexpr int shortestIntervalMs = 16;
+static constexpr int longestIntervalMs = 300;
+
 static const QString floorKey = QStringLiteral("Desktop/floor");
 
 SceneView::SceneView(QWidget* parent)
@@ -93,7 +97,7 @@ SceneView::SceneView(QWidget* parent)
   layout->addWidget(this->View, 1);
 
   this->RenderTimer.setSingleShot(true);
-  this->RenderTimer.setInterval(16);
+  this->RenderTimer.setInterval(shortestIntervalMs);
   connect(&this->RenderTimer, &QTimer::timeout, this, &SceneView::render);
   this->setFloor(QSettings().value(floorKey, int(SceneFloor::Plane::AcrossY)).toInt());
   this->applyTheme();
@@ -182,7 +186,11 @@ void SceneView::render()
   }
   // A module's props moved: what is near and far has changed with them.
   this->Renderer->ResetCameraClippingRange();
+  QElapsedTimer clock;
+  clock.start();
   this->Window->Render();
+  // Where drawing is slow (OpenGL in software), two thirds of the time are left to everything else.
+  this->RenderTimer.setInterval(qBound(shortestIntervalMs, 2 * int(clock.elapsed()), longestIntervalMs));
 }
 
 void SceneView::showEvent(QShowEvent* event)
@@ -235,7 +243,20 @@ void SceneView::fitIfOutgrown()
   this->Floor->placeUnder(bounds);
   this->Scale->setText(
     this->Floor->plane() != SceneFloor::Plane::None ? tr("floor: %1 mm").arg(this->Floor->spacingMm()) : QString());
+  this->fitCamera(bounds);
+}
+
+void SceneView::fitCamera(const double bounds[6])
+{
+  constexpr double viewAngleDeg = 30;
+  this->Renderer->GetActiveCamera()->SetViewAngle(viewAngleDeg);
   this->Renderer->ResetCamera(bounds);
+  const int* const size = this->Window->GetSize();
+  if (this->isVisible() && size[0] > 1 && size[1] > 1)
+  {
+    // Closer than the sphere about the bounds, which leaves much of a narrow view empty.
+    this->Renderer->ResetCameraScreenSpace(bounds);
+  }
 }
 
 void SceneView::resetCamera()
@@ -253,7 +274,7 @@ void SceneView::resetCamera()
   }
   else
   {
-    this->Renderer->ResetCamera(bounds);
+    this->fitCamera(bounds);
   }
   this->requestRender();
 }

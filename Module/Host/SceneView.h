@@ -26,7 +26,8 @@ class SceneFloor;
 ///
 /// As long as nobody has turned the view, it is reset by itself when the scene outgrows what was shown; the reset button brings that back.
 ///
-/// requestRender() costs nothing: the view draws once for many requests, and not faster than every 16 ms.
+/// requestRender() costs nothing: the view draws once for many requests, and not faster than every 16 ms, or a third of the time
+/// where drawing is slow.
 class SceneView : public QWidget
 {
   Q_OBJECT
@@ -61,6 +62,7 @@ private:
   /// Resets the camera if something has come outside of what it was reset for.
   void fitIfOutgrown();
   void stopFitting();
+  void fitCamera(const double bounds[6]);
 
   QVTKOpenGLNativeWidget* View;
   QWidget* Bar;

@@ -129,6 +129,15 @@ private slots:
     QCOMPARE(QImage(picture).size(), QSize(900, 600));
   }
 
+  void fineScreens_GetAllTheirPixels()
+  {
+    this->Environment.insert("QT_SCALE_FACTOR", "2");
+    const QString picture = this->Folder.filePath("fine.png");
+    const Run started = this->desktop({ "--no-splash", "--size", "1200x700", "--screenshot", picture, "--exit-after-startup" });
+    QCOMPARE(started.code, 0);
+    QCOMPARE(QImage(picture).size(), QSize(2400, 1400));
+  }
+
   void screenshotThatCannotBeWritten_IsAnError()
   {
     const Run started =
