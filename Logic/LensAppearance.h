@@ -30,6 +30,7 @@ struct LensAppearance
   /// Parts of the shader; a change builds it anew.
   struct Features
   {
+    bool limit = true;     ///< leave out what the lens model does not reach; not needed for a mesh that is all within it
     bool compose = false;  ///< mix the video in, no blending; what follows needs it
     bool mix = false;      ///< opacity below 1, or one of keyhole and ghosting
     bool keyhole = false;
@@ -39,8 +40,9 @@ struct LensAppearance
 
     bool operator==(const Features& other) const
     {
-      return this->compose == other.compose && this->mix == other.mix && this->keyhole == other.keyhole &&
-        this->ghosting == other.ghosting && this->clip == other.clip && this->depthColors == other.depthColors;
+      return this->limit == other.limit && this->compose == other.compose && this->mix == other.mix &&
+        this->keyhole == other.keyhole && this->ghosting == other.ghosting && this->clip == other.clip &&
+        this->depthColors == other.depthColors;
     }
   };
 

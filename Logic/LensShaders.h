@@ -52,11 +52,30 @@ vec4 lensWarp(vec4 position)
   return position;
 }
 #endif
+#ifdef LENS_LOOKUP
+// Where the straightened video has what is seen at a vertex, 0 to 1 from the lower left: the edges between are as straight as those
+// of a mesh on a raw video, the triangles being small enough for the one as for the other.
+uniform float lookupK[14];
+uniform mat3 lookupTilt;
+uniform vec4 lookupPinhole;
+uniform vec2 lensVideoSize;
+noperspective out vec2 lensVideoPlaceVS;
+
+vec2 lensVideoPlace(vec3 position)
+{
+  vec2 bent = lensDistort(vec2(position.x, -position.y) / max(-position.z, 1e-6), lookupK, lookupTilt);
+  vec2 seen = (bent * lookupPinhole.xy + lookupPinhole.zw + 0.5) / lensVideoSize;
+  return vec2(seen.x, 1.0 - seen.y);
+}
+#endif
 )glsl";
 
 constexpr const char* WarpImplementation = R"glsl(
   vertexVCVSOutput = MCVCMatrix * vertexMC;
   gl_Position = lensVCDCMatrix * lensWarp(vertexVCVSOutput);
+#ifdef LENS_LOOKUP
+  lensVideoPlaceVS = lensVideoPlace(vertexVCVSOutput.xyz);
+#endif
 #ifdef LENS_BEHIND
   gl_Position.z += 0.01 * gl_Position.w;
 #endif
@@ -67,12 +86,15 @@ in vec4 vertexVCVSOutput;
 uniform float lensLimitRadius;
 )glsl";
 
-/// The true position of this fragment, not the warped one, decides whether the lens model can be believed there.
+/// The true position of this fragment, not the warped one, decides whether the lens model can be believed there. Only where the mesh
+/// reaches that far: a shader that can discard is run before the depth test, for hidden surfaces too.
 constexpr const char* LimitImplementation = R"glsl(
+#ifdef LENS_LIMIT
   if (vertexVC.z >= 0.0 || dot(vertexVC.xy, vertexVC.xy) > lensLimitRadius * lensLimitRadius * vertexVC.z * vertexVC.z)
   {
     discard;
   }
+#endif
 #ifdef LENS_CLIP
   if (-vertexVC.z < lensClipDepth)
   {
@@ -103,23 +125,8 @@ uniform sampler2D lensVideo;
 uniform vec2 lensVideoSize;
 uniform float lensVideoSwap;
 #ifdef LENS_LOOKUP
-uniform float lookupK[14];
-uniform mat3 lookupTilt;
-uniform vec4 lookupPinhole;
+noperspective in vec2 lensVideoPlaceVS;
 #endif
-
-// Place in the picture, 0 to 1, origin at the lower left, to the colour of the video there.
-vec2 lensVideoPlace(vec2 place)
-{
-#ifdef LENS_LOOKUP
-  vec2 pixel = vec2(place.x, 1.0 - place.y) * lensVideoSize - 0.5;
-  vec2 bent = lensDistort((pixel - lookupPinhole.zw) / lookupPinhole.xy, lookupK, lookupTilt);
-  vec2 seen = (bent * lookupPinhole.xy + lookupPinhole.zw + 0.5) / lensVideoSize;
-  return vec2(seen.x, 1.0 - seen.y);
-#else
-  return place;
-#endif
-}
 
 vec3 lensVideoColor(vec2 videoPlace)
 {
@@ -190,7 +197,11 @@ constexpr const char* LookImplementation = R"glsl(
   lensAlpha *= 1.0 - smoothstep(0.92, 1.0, lensAway);
 #endif
 #ifdef LENS_VIDEO
-  vec2 lensVideoHere = lensVideoPlace(lensPlace);
+#ifdef LENS_LOOKUP
+  vec2 lensVideoHere = lensVideoPlaceVS;
+#else
+  vec2 lensVideoHere = lensPlace;
+#endif
 #ifdef LENS_GHOSTING
   lensAlpha *= 1.0 - lensGhosting * lensVideoEdge(lensVideoHere);
 #endif

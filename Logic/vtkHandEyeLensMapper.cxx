@@ -73,12 +73,12 @@ void vtkHandEyeLensMapper::PrintSelf(std::ostream& os, vtkIndent indent)
 
 void vtkHandEyeLensMapper::SetLensWarp(const handeye::LensWarp& warp)
 {
-  // Only uniforms change, which are set at every rendering: no Modified(), which would build the shaders anew.
+  // Only uniforms change, which are set at every rendering: no Modified(), which would send the mesh to the graphics card again.
   const bool sameShader = bends(warp) == bends(this->Warp);
   this->Warp = warp;
   if (!sameShader)
   {
-    this->Modified();
+    this->ShaderTime.Modified();
   }
 }
 
@@ -90,7 +90,7 @@ void vtkHandEyeLensMapper::SetAppearance(const handeye::LensAppearance& appearan
   this->Appearance = appearance;
   if (!sameShader)
   {
-    this->Modified();
+    this->ShaderTime.Modified();
   }
 }
 
@@ -98,7 +98,7 @@ void vtkHandEyeLensMapper::SetVideoTexture(vtkTexture* texture)
 {
   if (bool(texture) != bool(this->VideoTexture))
   {
-    this->Modified();
+    this->ShaderTime.Modified();
   }
   this->VideoTexture = texture;
 }
@@ -140,6 +140,12 @@ void vtkHandEyeLensMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* acto
   }
 }
 
+bool vtkHandEyeLensMapper::GetNeedToRebuildShaders(vtkOpenGLHelper& cellBO, vtkRenderer* renderer, vtkActor* actor)
+{
+  const bool needed = this->Superclass::GetNeedToRebuildShaders(cellBO, renderer, actor);
+  return needed || cellBO.ShaderSourceTime < this->ShaderTime;
+}
+
 void vtkHandEyeLensMapper::ReplaceShaderPositionVC(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
 {
   const handeye::LensAppearance::Features& features = this->Appearance.features;
@@ -152,6 +158,7 @@ void vtkHandEyeLensMapper::ReplaceShaderPositionVC(ShaderMap shaders, vtkRendere
     }
   };
   define(bends(this->Warp), "LENS_BENT");
+  define(features.limit, "LENS_LIMIT");
   define(this->DepthOnly, "LENS_BEHIND");
   define(features.compose, "LENS_COMPOSE");
   define(features.mix, "LENS_MIX");

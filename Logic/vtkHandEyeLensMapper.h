@@ -57,6 +57,7 @@ protected:
   ~vtkHandEyeLensMapper() override;
 
   using ShaderMap = std::map<vtkShader::Type, vtkShader*>;
+  bool GetNeedToRebuildShaders(vtkOpenGLHelper& cellBO, vtkRenderer* renderer, vtkActor* actor) override;
   void ReplaceShaderPositionVC(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor) override;
   void ReplaceShaderClip(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor) override;
   void ReplaceShaderTCoord(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor) override;
@@ -71,7 +72,8 @@ private:
   handeye::LensWarp Warp;
   handeye::LensAppearance Appearance;
   vtkSmartPointer<vtkTexture> VideoTexture;
-  int VideoUnit = -1;  ///< while drawing
+  vtkTimeStamp ShaderTime;  ///< of the last change that needs another shader, but not another mesh
+  int VideoUnit = -1;       ///< while drawing
   bool DepthOnly = false;
   bool AlwaysInFront = false;
   double RimStrength = 0;

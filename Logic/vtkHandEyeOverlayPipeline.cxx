@@ -174,7 +174,7 @@ double vtkHandEyeOverlayPipeline::GetEdgeErrorPx()
   {
     return 0;
   }
-  return handeye::chordErrorPx(state.Lens, this->Internal->NearestDistanceMm, this->Internal->LongestEdgeMm);
+  return handeye::chordErrorPx(state.Lens, this->Internal->MeshDistanceMm, this->Internal->LongestEdgeMm);
 }
 
 std::string vtkHandEyeOverlayPipeline::GetProblem()

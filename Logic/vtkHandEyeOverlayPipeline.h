@@ -33,8 +33,8 @@ class vtkRenderWindow;
 ///
 ///     p_Camera = modelToCamera * p_Model        then as CameraModel projects it; Camera: x right, y down, z forward; mm
 ///
-/// Long edges are divided until the largest error of drawing them straight is below 0.05 px at the nearest working distance
-/// (SetNearestDistanceMm, GetEdgeErrorPx). The model is not drawn where the lens model cannot be believed
+/// Long edges are divided until the largest error of drawing them straight is below 0.05 px at the model's distance
+/// (GetEdgeErrorPx), or at the nearest one that is worked at (SetNearestDistanceMm) where it is nearer. The model is not drawn where the lens model cannot be believed
 /// (CameraModel::maximumRadius()), nor while the video's size is not the camera's; GetProblem() then says why.
 ///
 /// Setters take effect at the next rendering; none renders. All calls belong to the thread that renders.
@@ -113,7 +113,8 @@ public:
   void SetNearestDistanceMm(double distance);
   double GetNearestDistanceMm();
 
-  /// By how many pixels an edge of the model is drawn too straight at the nearest distance, at most; 0 without a lens or a model.
+  /// By how many pixels an edge of the model is drawn too straight where it is, but at the nearest distance if it is nearer, at most;
+  /// 0 without a lens or a model.
   double GetEdgeErrorPx();
 
   /// Why the model is not drawn, as a sentence for the person in front of the screen; empty if it is (or is hidden on purpose).

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "OverlayMesh.h"
 #include "vtkHandEyeOverlayPipeline.h"
 #include "vtkHandEyeOverlayScene.h"
 
@@ -13,6 +14,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -27,7 +29,8 @@ public:
   handeye::StylusShape StylusShape;
   std::optional<Eigen::Matrix<double, 6, 6>> Covariance;
   double NearestDistanceMm = 50;
-  double LongestEdgeMm = 0;
+  double LongestEdgeMm = 0;   ///< of the mesh that is drawn
+  double MeshDistanceMm = 0;  ///< for which it was prepared: a power of two times the nearest distance, no further than the model
   std::string Problem;
 
   vtkNew<vtkHandEyeOverlayScene> WindowScene;
@@ -50,8 +53,11 @@ private:
   void UpdateStylus();
   void UpdateError();
 
+  double PreparedDistanceMm() const;
+
   vtkMTimeType MeshTime = 0;
-  double MeshEdgeLimitMm = 0;
+  handeye::OverlayMesh BaseMesh;                  ///< not divided
+  std::map<double, handeye::OverlayMesh> Meshes;  ///< divided, by the longest edge that was asked for
 };
 
 namespace handeye

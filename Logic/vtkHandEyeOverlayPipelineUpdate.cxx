@@ -15,12 +15,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace
 {
 
 constexpr double EdgeTolerancePx = 0.05;
-constexpr double Quantile95 = 2.4477;  // of the length of a vector with two standard normal entries
+constexpr double DistanceHysteresis = 0.3;  // in doublings of the distance
+constexpr double Quantile95 = 2.4477;       // of the length of a vector with two standard normal entries
 
 std::string sizeText(int width, int height)
 {
@@ -83,24 +85,55 @@ void vtkHandEyeOverlayPipeline::Internals::UpdateLens()
   }
 }
 
+double vtkHandEyeOverlayPipeline::Internals::PreparedDistanceMm() const
+{
+  // Depths of a box are those of its corners.
+  double bounds[6];
+  this->Model->GetBounds(bounds);
+  const Eigen::Vector4d row = handeye::toEigen(this->State.ModelToCamera).row(2);
+  double nearest = row[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    nearest += std::min(row[axis] * bounds[2 * axis], row[axis] * bounds[2 * axis + 1]);
+  }
+  const double doublings = std::log2(std::max(1.0, nearest / this->NearestDistanceMm));
+  const double before = std::log2(std::max(1.0, this->MeshDistanceMm / this->NearestDistanceMm));
+  // A model that stays near a threshold does not change its mesh to and fro.
+  const bool stays = doublings >= before && doublings < before + 1 + DistanceHysteresis;
+  return stays ? std::max(this->MeshDistanceMm, this->NearestDistanceMm)
+               : this->NearestDistanceMm * std::exp2(std::floor(doublings));
+}
+
 void vtkHandEyeOverlayPipeline::Internals::UpdateMesh()
 {
   if (!this->Model || !this->State.Camera)
   {
     return;
   }
-  const double limitMm = handeye::longestEdgeMm(this->State.Lens, this->NearestDistanceMm, EdgeTolerancePx);
   const vtkMTimeType modelTime =
     std::max(this->Model->GetMTime(), this->Model->GetPoints() ? this->Model->GetPoints()->GetMTime() : 0);
-  if (this->State.Mesh && modelTime == this->MeshTime && limitMm == this->MeshEdgeLimitMm)
+  if (!this->State.Mesh || modelTime != this->MeshTime)
   {
+    this->Meshes.clear();
+    this->MeshDistanceMm = 0;
+    this->BaseMesh = handeye::prepareOverlayMesh(this->Model, std::numeric_limits<double>::infinity());
+    this->MeshTime = modelTime;
+  }
+  this->MeshDistanceMm = this->PreparedDistanceMm();
+  const double limitMm = handeye::longestEdgeMm(this->State.Lens, this->MeshDistanceMm, EdgeTolerancePx);
+  if (this->BaseMesh.longestEdgeMm <= limitMm)
+  {
+    this->State.Mesh = this->BaseMesh.mesh;
+    this->LongestEdgeMm = this->BaseMesh.longestEdgeMm;
     return;
   }
-  const handeye::OverlayMesh prepared = handeye::prepareOverlayMesh(this->Model, limitMm);
-  this->State.Mesh = prepared.mesh;
-  this->LongestEdgeMm = prepared.longestEdgeMm;
-  this->MeshTime = modelTime;
-  this->MeshEdgeLimitMm = limitMm;
+  const auto [place, isNew] = this->Meshes.try_emplace(limitMm);
+  if (isNew)
+  {
+    place->second = handeye::prepareOverlayMesh(this->BaseMesh.mesh, limitMm);
+  }
+  this->State.Mesh = place->second.mesh;
+  this->LongestEdgeMm = place->second.longestEdgeMm;
 }
 
 void vtkHandEyeOverlayPipeline::Internals::Render(int width, int height, cv::Mat& bgr)

@@ -69,6 +69,15 @@ std::array<double, 2> depthRange(vtkPolyData* mesh, vtkMatrix4x4* modelToCamera,
   return range;
 }
 
+/// Whether a mesh may reach to where the lens model does not.
+bool reachesLimit(vtkPolyData* mesh, vtkMatrix4x4* meshToCamera, double limitRadius)
+{
+  const Eigen::Matrix<double, 3, 8> corners = cornersInCamera(mesh, meshToCamera);
+  // A cone is convex: if it holds the corners of a box, it holds the box.
+  return (corners.row(2).array() < NearestMm).any() ||
+    (corners.topRows<2>().colwise().norm().array() > 0.999 * limitRadius * corners.row(2).array()).any();
+}
+
 std::string text(const char* pattern, double a, double b = 0)
 {
   char line[128];
@@ -172,6 +181,7 @@ void vtkHandEyeOverlayScene::SynchronizeAppearance(const vtkHandEyeOverlayState&
   appearance.features.ghosting = look.ghosting && state.Video && !plain;
   appearance.features.depthColors = look.depthColors && !plain;
   appearance.features.clip = look.clipping;
+  appearance.features.limit = state.Mesh && reachesLimit(state.Mesh, state.ModelToCamera, state.Lens.limitRadius);
   appearance.features.mix = appearance.opacity < 1 || appearance.features.keyhole || appearance.features.ghosting;
   const auto& [nearest, furthest] = this->ModelDepthRangeMm;
   appearance.clipDepthMm = nearest + look.clippingDepth * (furthest - nearest);
@@ -185,6 +195,7 @@ void vtkHandEyeOverlayScene::SynchronizeAppearance(const vtkHandEyeOverlayState&
   this->ModelMapper->SetRimStrength(plain || look.wireframe ? 0 : ModelRimStrength * std::min(1.0, 2 * appearance.opacity));
   handeye::LensAppearance depthOnly = this->Appearance(state);
   depthOnly.features.clip = appearance.features.clip;
+  depthOnly.features.limit = appearance.features.limit;
   depthOnly.clipDepthMm = appearance.clipDepthMm;
   this->DepthMapper->SetAppearance(depthOnly);
 }
