@@ -470,8 +470,9 @@ TEST_P(OverlayOracle, FiveHundredMarkers_AreWhereArithmeticPutsThem_BothWays)
   for (const bool undistorted : { false, true })
   {
     const Lens shown = undistorted ? straightened(lens) : lens;
-    const MarkerField field = markers(shown, 4, 25, 20, lens.foldRadius());
-    ASSERT_GT(field.expected_Image.size(), lens.name == "Wide" || lens.name == "StrongBarrel" ? 420u : 499u);
+    // Within 0.92 of the radius where the lens model ends: beyond, a marker is squeezed to less than a pixel's width.
+    const MarkerField field = markers(shown, 4, 25, 20, 0.92 / 0.97 * lens.foldRadius());
+    ASSERT_GT(field.expected_Image.size(), lens.name == "Wide" || lens.name == "StrongBarrel" ? 400u : 499u);
     const auto pipeline = maskPipeline(lens, field.mesh);
     pipeline->SetMaskMode(false);
     pipeline->SetModelOpacity(1);
