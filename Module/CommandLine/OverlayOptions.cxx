@@ -96,7 +96,8 @@ void addLookOptions(CLI::App& command, OverlayArguments& arguments)
     ->type_name("PX")
     ->capture_default_str();
   command
-    .add_option("--clipping-depth", arguments.look.clippingDepth, "Clipping plane between the model's nearest (0) and furthest (1) depth")
+    .add_option(
+      "--clipping-depth", arguments.look.clippingDepth, "Clipping plane between the model's nearest (0) and furthest (1) depth")
     ->check(validator(checkShare))
     ->type_name("SHARE")
     ->capture_default_str();
@@ -132,11 +133,12 @@ void addStylusOptions(CLI::App& command, OverlayArguments& arguments)
 void addOutputOptions(CLI::App& command, OverlayArguments& arguments)
 {
   command.add_flag("--fade", arguments.fade,
-    "While a tool is hidden, the model fades where it was last and a sentence in the picture says so; without it, the model is left "
+    "While a tool is hidden, the model fades where it was last and a sentence in the picture says so; without it, the model is "
+    "left "
     "out at once");
   command.add_flag("--smooth", arguments.smooth, "Take the tracker's jitter out of the model's pose; the delay is reported");
-  CLI::Option* right = command.add_option("--right", arguments.right, "The right eye's images, with the same tracking")
-                         ->type_name("RECORDING");
+  CLI::Option* right =
+    command.add_option("--right", arguments.right, "The right eye's images, with the same tracking")->type_name("RECORDING");
   command.add_option("--right-camera", arguments.rightCamera, "The right eye's lens")->type_name("CAMERA")->needs(right);
   std::vector<std::string> words;
   for (const auto& layout : layouts())
@@ -164,7 +166,9 @@ void addOverlayOptions(CLI::App& command, OverlayArguments& arguments)
 {
   addRecordingArgument(command, arguments.recording, "Images, and the poses of the camera's marker and the phantom");
   addCalibrationOption(command, arguments.calibration);
-  command.add_option("--model", arguments.model, "Surface mesh: STL, PLY, OBJ, VTP or legacy VTK, mm")->required()->type_name("MESH");
+  command.add_option("--model", arguments.model, "Surface mesh: STL, PLY, OBJ, VTP or legacy VTK, mm")
+    ->required()
+    ->type_name("MESH");
   command.add_option("--registration", arguments.registration, "What `handeye landmarks` wrote")
     ->required()
     ->type_name("phantom.json");
