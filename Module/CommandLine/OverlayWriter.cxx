@@ -255,11 +255,12 @@ void OverlayWriter::setUpRight(const StoredCalibration& stored)
 
 nlohmann::json OverlayWriter::draw(int frame)
 {
+  const double timeSec = recording_.timestampSec(frame).value_or(frame / arguments_.framesPerSec);
   if (!recording_.hasImage(frame) || (right_ && !right_->hasImage(frame)))
   {
+    metafile_->append(sequenceFrame(timeSec, { { "ModelToCamera", std::nullopt } }));  // frames keep their numbers
     return { { "frame", frame }, { "status", "image_missing" } };
   }
-  const double timeSec = recording_.timestampSec(frame).value_or(frame / arguments_.framesPerSec);
   nlohmann::json row = leftEye_->set(frame, timeSec);
   OverlayTransformSet transforms = leftEye_->transforms();
   bool isDrawn = leftEye_->isDrawn();
