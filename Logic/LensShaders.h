@@ -86,8 +86,8 @@ in vec4 vertexVCVSOutput;
 uniform float lensLimitRadius;
 )glsl";
 
-/// The true position of this fragment, not the warped one, decides whether the lens model can be believed there. Only where the mesh
-/// reaches that far: a shader that can discard is run before the depth test, for hidden surfaces too.
+/// The true position of this fragment, not the warped one, decides whether the lens model can be believed there. Only where the
+/// mesh reaches that far: a shader that can discard is run before the depth test, for hidden surfaces too.
 constexpr const char* LimitImplementation = R"glsl(
 #ifdef LENS_LIMIT
   if (vertexVC.z >= 0.0 || dot(vertexVC.xy, vertexVC.xy) > lensLimitRadius * lensLimitRadius * vertexVC.z * vertexVC.z)

@@ -19,7 +19,7 @@ namespace handeye
 namespace
 {
 
-constexpr double TolerancePx = 0.12;
+constexpr double TolerancePx = 0.08;
 constexpr double LargestCellPx = 64;
 constexpr int MostNodes = 1000;
 

@@ -20,7 +20,7 @@ VTK_SLICER_HANDEYECALIBRATION_MODULE_LOGIC_EXPORT vtkSmartPointer<vtkPolyData> m
 /// point and size would see. The graphics card looks the video's pixels up; coordinates outside of 0 to 1 are places that the real
 /// camera does not see.
 ///
-/// Between the nodes of a grid the coordinates are linear; the grid is fine enough for an error of at most 0.12 px of the video,
+/// Between the nodes of a grid the coordinates are linear; the grid is fine enough for an error of at most 0.08 px of the video,
 /// where the lens bends most. Cells that touch what is outside of the lens model are left out.
 /// @param camera with an image size
 /// @param warp makeLensWarp(camera)

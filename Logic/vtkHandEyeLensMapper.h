@@ -32,7 +32,8 @@ public:
 
   void SetLensWarp(const handeye::LensWarp& warp);
 
-  /// Write depth, no colour, a hundredth of the depth range further away: hides lines, but not those that lie on it. Off by default.
+  /// Write depth, no colour, a hundredth of the depth range further away: hides lines, but not those that lie on it. Off by
+  /// default.
   vtkSetMacro(DepthOnly, bool);
   vtkGetMacro(DepthOnly, bool);
 

@@ -20,8 +20,8 @@ class vtkTextureObject;
 /// Private to the overlay: draws a renderer's props into a texture first, and from there into the window with lines where the model
 /// ends and a halo around it.
 ///
-/// Pixels of the model have alpha ModelAlpha, those of other props OtherAlpha, in what the props draw (LensAppearance::outputAlpha).
-/// 2D props (text) come last and untouched.
+/// Pixels of the model have alpha ModelAlpha, those of other props OtherAlpha, in what the props draw
+/// (LensAppearance::outputAlpha). 2D props (text) come last and untouched.
 class vtkHandEyeOutlinePass : public vtkRenderPass
 {
 public:

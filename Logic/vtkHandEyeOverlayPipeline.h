@@ -26,16 +26,17 @@ class vtkRenderWindow;
 ///
 /// Two ways with the lens (OverlayLook::undistorted). Raw: the video is shown as the camera records it, and the mesh is bent as the
 /// lens bends light. Undistorted: the graphics card straightens the video, to what a pinhole camera with the same focal lengths,
-/// principal point and size would see, and the mesh is drawn plainly. Either way both fit over the whole picture, at any depth. In a
-/// window of any size the picture is letterboxed (centred, never stretched), and
-/// video and mesh stay registered through every resize and device pixel ratio. Away from what is drawn, no pixel of the raw video is
-/// changed.
+/// principal point and size would see, and the mesh is drawn plainly. Either way both fit over the whole picture, at any depth. In
+/// a window of any size the picture is letterboxed (centred, never stretched), and
+/// video and mesh stay registered through every resize and device pixel ratio. Away from what is drawn, no pixel of the raw video
+/// is changed.
 ///
 ///     p_Camera = modelToCamera * p_Model        then as CameraModel projects it; Camera: x right, y down, z forward; mm
 ///
 /// Long edges are divided until the largest error of drawing them straight is below 0.05 px at the model's distance
-/// (GetEdgeErrorPx), or at the nearest one that is worked at (SetNearestDistanceMm) where it is nearer. The model is not drawn where the lens model cannot be believed
-/// (CameraModel::maximumRadius()), nor while the video's size is not the camera's; GetProblem() then says why.
+/// (GetEdgeErrorPx), or at the nearest one that is worked at (SetNearestDistanceMm) where it is nearer. The model is not drawn
+/// where the lens model cannot be believed (CameraModel::maximumRadius()), nor while the video's size is not the camera's;
+/// GetProblem() then says why.
 ///
 /// Setters take effect at the next rendering; none renders. All calls belong to the thread that renders.
 class VTK_SLICER_HANDEYECALIBRATION_MODULE_LOGIC_EXPORT vtkHandEyeOverlayPipeline : public vtkObject
@@ -79,7 +80,8 @@ public:
   void SetNotice(const std::string& notice);
   std::string GetNotice();
 
-  /// Covariance of the hand-eye calibration (rotation vector rad, translation mm; `Camera` frame), for the halo; nothing: not known.
+  /// Covariance of the hand-eye calibration (rotation vector rad, translation mm; `Camera` frame), for the halo; nothing: not
+  /// known.
   /// @throws std::invalid_argument if a number is not finite
   void SetCalibrationCovariance(const std::optional<Eigen::Matrix<double, 6, 6>>& covariance);
 
@@ -113,8 +115,8 @@ public:
   void SetNearestDistanceMm(double distance);
   double GetNearestDistanceMm();
 
-  /// By how many pixels an edge of the model is drawn too straight where it is, but at the nearest distance if it is nearer, at most;
-  /// 0 without a lens or a model.
+  /// By how many pixels an edge of the model is drawn too straight where it is, but at the nearest distance if it is nearer, at
+  /// most; 0 without a lens or a model.
   double GetEdgeErrorPx();
 
   /// Why the model is not drawn, as a sentence for the person in front of the screen; empty if it is (or is hidden on purpose).

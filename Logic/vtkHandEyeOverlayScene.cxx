@@ -58,6 +58,9 @@ vtkHandEyeOverlayScene::vtkHandEyeOverlayScene()
     // A culler would judge by the undistorted place of the model.
     renderers[layer]->GetCullers()->RemoveAllItems();
   }
+  // Only the model looks at depths.
+  this->BarsRenderer->PreserveDepthBufferOn();
+  this->VideoRenderer->PreserveDepthBufferOn();
   this->SetUpVideo();
   this->SetUpModel();
   this->SetUpTexts();

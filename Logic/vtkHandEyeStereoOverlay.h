@@ -15,9 +15,9 @@ class vtkRenderWindow;
 
 /// Two overlays, one for each eye of a stereo camera, in one window: for displays and glasses that give each eye its own picture.
 ///
-/// Each eye is a vtkHandEyeOverlayPipeline with its own lens, video and modelToCamera (its own hand-eye); what holds for one of them
-/// holds here. Both are drawn on the graphics card in one rendering; nothing is read back. GetLeft() and GetRight() must not be
-/// attached to this window themselves.
+/// Each eye is a vtkHandEyeOverlayPipeline with its own lens, video and modelToCamera (its own hand-eye); what holds for one of
+/// them holds here. Both are drawn on the graphics card in one rendering; nothing is read back. GetLeft() and GetRight() must not
+/// be attached to this window themselves.
 ///
 ///     p_Left = modelToLeft * p_Model      p_Right = modelToRight * p_Model
 ///
@@ -51,7 +51,8 @@ public:
   vtkHandEyeOverlayPipeline* GetLeft();
   vtkHandEyeOverlayPipeline* GetRight();
 
-  /// 's' goes to the next layout, 'e' exchanges the eyes; every other key goes to both eyes. @return false for one without a meaning
+  /// 's' goes to the next layout, 'e' exchanges the eyes; every other key goes to both eyes. @return false for one without a
+  /// meaning
   bool HandleKey(char key);
 
   /// Why a model is not drawn, naming the eye; empty if both are.

@@ -43,8 +43,8 @@ struct PoseAge
   bool isUsable() const { return status == Status::Current || status == Status::Fading; }
 };
 
-/// What an overlay that needs several tools may still show: the tool that was not seen for the longest time decides. An overlay that
-/// stays where it was while a tool is hidden looks right and is wrong; so it fades, and says which tool it is.
+/// What an overlay that needs several tools may still show: the tool that was not seen for the longest time decides. An overlay
+/// that stays where it was while a tool is hidden looks right and is wrong; so it fades, and says which tool it is.
 ///
 ///     opacity = clamp((goneSec - age) / (goneSec - currentSec), 0, 1)
 ///

@@ -29,8 +29,8 @@ struct SmoothedPose
   double cutoffHz = 0;  ///< of the translation's filter now; 0 for the first pose, which is passed on as it is
 };
 
-/// Takes the jitter of a tracker out of a stream of poses: a low-pass filter that opens when the tool moves, so that a still overlay
-/// is calm and a moving one is not late (the 1-euro filter, on rigid motions).
+/// Takes the jitter of a tracker out of a stream of poses: a low-pass filter that opens when the tool moves, so that a still
+/// overlay is calm and a moving one is not late (the 1-euro filter, on rigid motions).
 ///
 /// With the time step dt, translation t and rotation R each follow their measurement by the share a:
 ///

@@ -48,7 +48,8 @@ struct LiveOverlayPose
 /// model's place comes out, at the frame's time plus the latency. While a tool is hidden the model stays where it was last, paler
 /// and paler, and a sentence says which tool it is; then it is gone.
 ///
-///     modelToCamera = markerToCamera * inverse(markerToTracker(t)) * phantomToTracker(t) * modelToPhantom,  t = frame time + latency
+///     modelToCamera = markerToCamera * inverse(markerToTracker(t)) * phantomToTracker(t) * modelToPhantom
+///     t = frame time + latency
 ///
 /// Times in s, of one clock, the frames in ascending order. Not safe to share between threads.
 class LiveOverlay

@@ -26,12 +26,12 @@ struct OverlayRecorderOptions
   void check() const;
 };
 
-/// Writes the pictures of an overlay as a video, and their transforms as a sequence metafile (.igs.mha, transforms only) of the same
-/// name beside it: frame i of the one belongs to frame i of the other.
+/// Writes the pictures of an overlay as a video, and their transforms as a sequence metafile (.igs.mha, transforms only) of the
+/// same name beside it: frame i of the one belongs to frame i of the other.
 ///
 /// The file's ending chooses the format: .mp4 (H.264 where OpenCV's FFmpeg can encode it, MPEG-4 otherwise), .ogv (Theora), .avi
-/// (motion JPEG, which every OpenCV can). A picture with an odd width or height has its last column or row doubled, as these formats
-/// hold even sizes only. Both files are written under other names and renamed by close(); without it, nothing remains.
+/// (motion JPEG, which every OpenCV can). A picture with an odd width or height has its last column or row doubled, as these
+/// formats hold even sizes only. Both files are written under other names and renamed by close(); without it, nothing remains.
 ///
 /// Not safe to share between threads.
 class OverlayRecorder

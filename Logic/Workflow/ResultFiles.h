@@ -57,7 +57,8 @@ struct StoredCalibration
 /// @throws io::FileError naming the key; also where the file's status is not "ok"
 StoredCalibration readCalibration(const std::filesystem::path& path);
 
-/// The covariance (rotation vector rad, translation mm; camera frame) of a calibration.json; nothing where the file does not hold it.
+/// The covariance (rotation vector rad, translation mm; camera frame) of a calibration.json; nothing where the file does not hold
+/// it.
 /// @throws io::FileError where it is none
 std::optional<Eigen::Matrix<double, 6, 6>> readCalibrationCovariance(const std::filesystem::path& path);
 

@@ -106,8 +106,7 @@ Eigen::Isometry3d readTransform(const Path& path, const json& object, const char
 }
 
 /// Rows of numbers that are symmetric and have no negative eigenvalue.
-template<int size>
-Eigen::Matrix<double, size, size> readCovariance(const Path& path, const json& value, const char* key)
+template<int size> Eigen::Matrix<double, size, size> readCovariance(const Path& path, const json& value, const char* key)
 {
   Eigen::Matrix<double, size, size> covariance = Eigen::Matrix<double, size, size>::Zero();
   bool isMatrix = value.is_array() && value.size() == size;

@@ -5,8 +5,8 @@
 // video square and the same mesh, opaque, with no lens: ratio_to_bare_vtk is our time over theirs. Both take turns in one process.
 // Ours is given the frame as it comes from a camera (BGR, top row first), the bare scene one that is ready for VTK.
 //
-// latency_periods_30Hz: from the frame's arrival until its picture is finished, in periods of a video at 30 Hz. All are medians; the
-// cpu ratio, of the processor time of all threads, is what to look at on a machine that has other things to do.
+// latency_periods_30Hz: from the frame's arrival until its picture is finished, in periods of a video at 30 Hz. All are medians;
+// the cpu ratio, of the processor time of all threads, is what to look at on a machine that has other things to do.
 #include "EigenVtk.h"
 #include "MeshReader.h"
 #include "OffscreenRendering.h"

@@ -194,8 +194,8 @@ struct MarkerField
   std::vector<Eigen::Vector2d> expected_Image;
 };
 
-/// Where plain arithmetic sees the middle of a disc's image: the centroid of its bent outline, which near the end of a lens model is
-/// not the image of the disc's middle.
+/// Where plain arithmetic sees the middle of a disc's image: the centroid of its bent outline, which near the end of a lens model
+/// is not the image of the disc's middle.
 Eigen::Vector2d discCentroid(const Lens& lens, const Eigen::Vector2d& centre_Normalized, double radius_Normalized)
 {
   constexpr int pointsOfAnEdge = 8;
@@ -492,8 +492,8 @@ TEST_P(OverlayOracle, FiveHundredMarkers_AreWhereArithmeticPutsThem_BothWays)
 
 TEST_P(OverlayOracle, UndistortedVideo_ShowsWhatTheLensSawThere)
 {
-  // Blurred dots in the raw video, drawn with plain arithmetic, are to be found where a pinhole camera would see them: what fits the
-  // model in the undistorted picture must be the video as well.
+  // Blurred dots in the raw video, drawn with plain arithmetic, are to be found where a pinhole camera would see them: what fits
+  // the model in the undistorted picture must be the video as well.
   const Lens lens = GetParam();
   cv::Mat raw(lens.height, lens.width, CV_8UC3, cv::Scalar(0, 0, 0));
   std::vector<Eigen::Vector2d> expected;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Path-traced pictures of a phantom, with true transforms and masks: the overlay's silhouette against the rendered one. The poses of
-// the recordings carry the tracker's noise (0.12 mm, 0.025 deg on each of two markers), which moves a silhouette as a whole.
+// Path-traced pictures of a phantom, with true transforms and masks: the overlay's silhouette against the rendered one. The poses
+// of the recordings carry the tracker's noise (0.12 mm, 0.025 deg on each of two markers), which moves a silhouette as a whole.
 #include "CameraFile.h"
 #include "OverlayPose.h"
 #include "OverlayTestScene.h"
