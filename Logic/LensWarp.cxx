@@ -150,6 +150,14 @@ LensWarp makeLensWarp(const CameraModel& camera)
   return warp;
 }
 
+LensWarp plainWarp(const LensWarp& lens)
+{
+  LensWarp warp;
+  Eigen::Map<Eigen::Matrix3f>(warp.tilt.data()) = tiltHomography(0, 0);
+  warp.limitRadius = lens.limitRadius;
+  return warp;
+}
+
 double longestEdgeMm(const LensWarp& warp, double nearestDistanceMm, double tolerancePx)
 {
   // Below this the mapping is straight to within rounding.

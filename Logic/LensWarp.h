@@ -31,6 +31,9 @@ struct LensWarp
 /// @throws std::invalid_argument if the camera has no image size
 VTK_SLICER_HANDEYECALIBRATION_MODULE_LOGIC_EXPORT LensWarp makeLensWarp(const CameraModel& camera);
 
+/// What a straightened picture needs: nothing is bent, and the same is believed.
+VTK_SLICER_HANDEYECALIBRATION_MODULE_LOGIC_EXPORT LensWarp plainWarp(const LensWarp& lens);
+
 /// The longest edge (mm) that is drawn with an error of no more than `tolerancePx`, at `nearestDistanceMm` or further: a vertex
 /// shader bends vertices, not the edges between them. Infinity for a lens without distortion.
 VTK_SLICER_HANDEYECALIBRATION_MODULE_LOGIC_EXPORT double longestEdgeMm(

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkHandEyeLensMapper.h"
 
+#include "LensShaders.h"
+
 #include <vtkMatrix3x3.h>
 #include <vtkMatrix4x4.h>
 #include <vtkObjectFactory.h>
@@ -9,79 +11,19 @@
 #include <vtkOpenGLHelper.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
+#include <vtkOpenGLTexture.h>
 #include <vtkRenderer.h>
 #include <vtkShader.h>
 #include <vtkShaderProgram.h>
+#include <vtkTextureObject.h>
 #include <vtk_glew.h>
+
+#include <string>
 
 vtkStandardNewMacro(vtkHandEyeLensMapper);
 
 namespace
 {
-
-// Two passes (depth, then colour) must agree on the depth to the last bit, hence invariant.
-constexpr const char* WarpDeclaration = R"glsl(
-invariant gl_Position;
-out vec4 vertexVCVSOutput;
-uniform mat4 lensVCDCMatrix;
-uniform float lensK[14];
-uniform mat3 lensTilt;
-uniform float lensLimitRadius;
-uniform float lensOuterSlope;
-
-vec2 lensDistort(vec2 n)
-{
-  float r2 = dot(n, n);
-  float numerator = 1.0 + r2 * (lensK[0] + r2 * (lensK[1] + r2 * lensK[4]));
-  float denominator = 1.0 + r2 * (lensK[5] + r2 * (lensK[6] + r2 * lensK[7]));
-  vec2 tangential = 2.0 * n.x * n.y * vec2(lensK[2], lensK[3]) + (r2 + 2.0 * n * n) * vec2(lensK[3], lensK[2]);
-  vec2 prism = r2 * vec2(lensK[8] + r2 * lensK[9], lensK[10] + r2 * lensK[11]);
-  vec2 bent = n * numerator / denominator + tangential + prism;
-  vec3 tilted = lensTilt * vec3(bent, 1.0);
-  return tilted.xy / tilted.z;
-}
-
-// View coordinates (x right, y up, z backward) in, view coordinates out.
-vec4 lensWarp(vec4 position)
-{
-  vec2 offset = vec2(position.x, -position.y);
-  float depth = max(-position.z, 0.0);
-  float radius = length(offset);
-  float believed = lensLimitRadius * depth;
-  vec2 warped;
-  if (depth > 0.0 && radius <= believed)
-  {
-    warped = depth * lensDistort(offset / depth);
-  }
-  else
-  {
-    vec2 outward = radius > 0.0 ? offset / radius : vec2(0.0);
-    warped = depth * lensDistort(lensLimitRadius * outward) + lensOuterSlope * (radius - believed) * outward;
-  }
-  return vec4(warped.x, -warped.y, position.zw);
-}
-)glsl";
-
-constexpr const char* WarpImplementation = R"glsl(
-  vertexVCVSOutput = MCVCMatrix * vertexMC;
-  gl_Position = lensVCDCMatrix * lensWarp(vertexVCVSOutput);
-)glsl";
-
-// The true position of this fragment, not the warped one, decides whether the lens model can be believed there.
-constexpr const char* LimitImplementation = R"glsl(
-  if (vertexVC.z >= 0.0 || length(vertexVC.xy) > -lensLimitRadius * vertexVC.z)
-  {
-    discard;
-  }
-  //VTK::Clip::Impl
-)glsl";
-
-constexpr const char* RimImplementation = R"glsl(
-  float lensFacing = min(abs(dot(normalVCVSOutput, normalize(vertexVC.xyz))), 1.0);
-  float lensRim = pow(1.0 - lensFacing, 3.0) * lensRimStrength;
-  gl_FragData[0] = vec4(gl_FragData[0].rgb * (1.0 - 0.75 * lensRim), mix(gl_FragData[0].a, 1.0, lensRim));
-  //VTK::Light::Impl
-)glsl";
 
 void substitute(vtkShader* shader, const std::string& tag, const std::string& replacement)
 {
@@ -90,20 +32,75 @@ void substitute(vtkShader* shader, const std::string& tag, const std::string& re
   shader->SetSource(source);
 }
 
+void set2(vtkShaderProgram* program, const char* name, double a, double b)
+{
+  const float values[2] = { float(a), float(b) };
+  program->SetUniform2f(name, values);
+}
+
+void set3(vtkShaderProgram* program, const char* name, double a, double b, double c)
+{
+  const float values[3] = { float(a), float(b), float(c) };
+  program->SetUniform3f(name, values);
+}
+
+void set4(vtkShaderProgram* program, const char* name, double a, double b, double c, double d)
+{
+  const float values[4] = { float(a), float(b), float(c), float(d) };
+  program->SetUniform4f(name, values);
+}
+
+/// A lens that bends nothing needs no shader that does.
+bool bends(const handeye::LensWarp& warp)
+{
+  return warp.curvaturePx > 0;
+}
+
 }  // namespace
+
+vtkHandEyeLensMapper::vtkHandEyeLensMapper() = default;
+
+vtkHandEyeLensMapper::~vtkHandEyeLensMapper() = default;
 
 void vtkHandEyeLensMapper::PrintSelf(std::ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "LimitRadius: " << this->Warp.limitRadius << "\n";
   os << indent << "DepthOnly: " << this->DepthOnly << "\n";
+  os << indent << "AlwaysInFront: " << this->AlwaysInFront << "\n";
   os << indent << "RimStrength: " << this->RimStrength << "\n";
 }
 
 void vtkHandEyeLensMapper::SetLensWarp(const handeye::LensWarp& warp)
 {
-  // Only uniforms change, which are set at every rendering: no Modified(), which would build the shaders anew.
+  // Only uniforms change, which are set at every rendering: no Modified(), which would send the mesh to the graphics card again.
+  const bool sameShader = bends(warp) == bends(this->Warp);
   this->Warp = warp;
+  if (!sameShader)
+  {
+    this->ShaderTime.Modified();
+  }
+}
+
+void vtkHandEyeLensMapper::SetAppearance(const handeye::LensAppearance& appearance)
+{
+  const handeye::LensAppearance& old = this->Appearance;
+  const bool sameShader = old.features == appearance.features && old.eye.luma == appearance.eye.luma &&
+    old.eye.alternateRows == appearance.eye.alternateRows && old.undistortedVideo == appearance.undistortedVideo;
+  this->Appearance = appearance;
+  if (!sameShader)
+  {
+    this->ShaderTime.Modified();
+  }
+}
+
+void vtkHandEyeLensMapper::SetVideoTexture(vtkTexture* texture)
+{
+  if (bool(texture) != bool(this->VideoTexture))
+  {
+    this->ShaderTime.Modified();
+  }
+  this->VideoTexture = texture;
 }
 
 void vtkHandEyeLensMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
@@ -111,20 +108,74 @@ void vtkHandEyeLensMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* acto
   vtkOpenGLState* state = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow())->GetState();
   vtkOpenGLState::ScopedglColorMask colorMask(state);
   vtkOpenGLState::ScopedglDepthFunc depthFunction(state);
+  vtkOpenGLState::ScopedglEnableDisable blending(state, GL_BLEND);
+  const auto& colors = this->Appearance.eye.colors;
   if (this->DepthOnly)
   {
     state->vtkglColorMask(0, 0, 0, 0);
   }
-  // The colour pass finds its own depth already there. (A window may come with GL_LESS.)
-  state->vtkglDepthFunc(GL_LEQUAL);
+  else
+  {
+    state->vtkglColorMask(colors[0], colors[1], colors[2], 1);
+  }
+  if (this->Appearance.features.compose)
+  {
+    state->vtkglDisable(GL_BLEND);
+  }
+  // A second pass over the same mesh finds its own depth already there. (A window may come with GL_LESS.)
+  state->vtkglDepthFunc(this->AlwaysInFront ? GL_ALWAYS : GL_LEQUAL);
+
+  auto* video = vtkOpenGLTexture::SafeDownCast(this->VideoTexture);
+  vtkTextureObject* texture = video && this->Appearance.features.mix ? video->GetTextureObject() : nullptr;
+  if (texture)
+  {
+    texture->Activate();
+    this->VideoUnit = texture->GetTextureUnit();
+  }
   this->Superclass::RenderPieceDraw(renderer, actor);
+  if (texture)
+  {
+    texture->Deactivate();
+    this->VideoUnit = -1;
+  }
+}
+
+bool vtkHandEyeLensMapper::GetNeedToRebuildShaders(vtkOpenGLHelper& cellBO, vtkRenderer* renderer, vtkActor* actor)
+{
+  const bool needed = this->Superclass::GetNeedToRebuildShaders(cellBO, renderer, actor);
+  return needed || cellBO.ShaderSourceTime < this->ShaderTime;
 }
 
 void vtkHandEyeLensMapper::ReplaceShaderPositionVC(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
 {
-  substitute(shaders[vtkShader::Vertex], "//VTK::PositionVC::Dec", WarpDeclaration);
-  substitute(shaders[vtkShader::Vertex], "//VTK::PositionVC::Impl", WarpImplementation);
-  substitute(shaders[vtkShader::Fragment], "//VTK::PositionVC::Dec", "in vec4 vertexVCVSOutput;\nuniform float lensLimitRadius;");
+  const handeye::LensAppearance::Features& features = this->Appearance.features;
+  std::string defines = "\n";
+  const auto define = [&defines](bool wanted, const char* name)
+  {
+    if (wanted)
+    {
+      defines += std::string("#define ") + name + "\n";
+    }
+  };
+  define(bends(this->Warp), "LENS_BENT");
+  define(features.limit, "LENS_LIMIT");
+  define(this->DepthOnly, "LENS_BEHIND");
+  define(features.compose, "LENS_COMPOSE");
+  define(features.mix, "LENS_MIX");
+  define(features.mix && this->VideoTexture, "LENS_VIDEO");
+  define(features.mix && this->VideoTexture && this->Appearance.undistortedVideo, "LENS_LOOKUP");
+  define(features.keyhole, "LENS_KEYHOLE");
+  define(features.ghosting, "LENS_GHOSTING");
+  define(features.clip, "LENS_CLIP");
+  define(features.depthColors, "LENS_DEPTHCOLORS");
+  define(this->Appearance.eye.luma, "LENS_LUMA");
+  define(this->Appearance.eye.alternateRows, "LENS_ROWS");
+  defines += handeye::shaders::Distort;
+
+  substitute(shaders[vtkShader::Vertex], "//VTK::PositionVC::Dec", defines + handeye::shaders::WarpDeclaration);
+  substitute(shaders[vtkShader::Vertex], "//VTK::PositionVC::Impl", handeye::shaders::WarpImplementation);
+  substitute(shaders[vtkShader::Fragment], "//VTK::PositionVC::Dec",
+    defines + handeye::shaders::FragmentDeclaration + handeye::shaders::LookDeclaration);
   substitute(shaders[vtkShader::Fragment], "//VTK::PositionVC::Impl", "vec4 vertexVC = vertexVCVSOutput;");
   if (this->PrimitiveInfo[this->LastBoundBO].LastLightComplexity == 0)
   {
@@ -136,18 +187,16 @@ void vtkHandEyeLensMapper::ReplaceShaderPositionVC(ShaderMap shaders, vtkRendere
 
 void vtkHandEyeLensMapper::ReplaceShaderClip(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
 {
-  substitute(shaders[vtkShader::Fragment], "//VTK::Clip::Impl", LimitImplementation);
+  substitute(shaders[vtkShader::Fragment], "//VTK::Clip::Impl", handeye::shaders::LimitImplementation);
   this->Superclass::ReplaceShaderClip(shaders, renderer, actor);
 }
 
-void vtkHandEyeLensMapper::ReplaceShaderLight(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
+void vtkHandEyeLensMapper::ReplaceShaderTCoord(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
 {
-  substitute(shaders[vtkShader::Fragment], "//VTK::Light::Dec", "uniform float lensRimStrength;\n//VTK::Light::Dec");
-  this->Superclass::ReplaceShaderLight(shaders, renderer, actor);
-  if (this->PrimitiveInfo[this->LastBoundBO].LastLightComplexity > 0)
-  {
-    substitute(shaders[vtkShader::Fragment], "//VTK::Light::Impl", RimImplementation);
-  }
+  const bool lit = this->PrimitiveInfo[this->LastBoundBO].LastLightComplexity > 0;
+  const std::string rim = lit ? handeye::shaders::RimImplementation : handeye::shaders::NoRimImplementation;
+  substitute(shaders[vtkShader::Fragment], "//VTK::TCoord::Impl", rim + handeye::shaders::LookImplementation);
+  this->Superclass::ReplaceShaderTCoord(shaders, renderer, actor);
 }
 
 void vtkHandEyeLensMapper::SetCameraShaderParameters(vtkOpenGLHelper& cellBO, vtkRenderer* renderer, vtkActor* actor)
@@ -159,12 +208,40 @@ void vtkHandEyeLensMapper::SetCameraShaderParameters(vtkOpenGLHelper& cellBO, vt
     ->GetKeyMatrices(renderer, worldToView, normals, viewToDisplay, worldToDisplay);
   vtkShaderProgram* program = cellBO.Program;
   program->SetUniformMatrix("lensVCDCMatrix", viewToDisplay);
-  program->SetUniform1fv("lensK", int(this->Warp.coefficients.size()), this->Warp.coefficients.data());
-  program->SetUniformMatrix3x3("lensTilt", this->Warp.tilt.data());
   program->SetUniformf("lensLimitRadius", float(this->Warp.limitRadius));
-  program->SetUniformf("lensOuterSlope", float(this->Warp.outerSlope));
-  if (program->IsUniformUsed("lensRimStrength"))
+  if (bends(this->Warp))
   {
-    program->SetUniformf("lensRimStrength", float(this->RimStrength));
+    program->SetUniform1fv("lensK", int(this->Warp.coefficients.size()), this->Warp.coefficients.data());
+    program->SetUniformMatrix3x3("lensTilt", this->Warp.tilt.data());
+    program->SetUniformf("lensOuterSlope", float(this->Warp.outerSlope));
+  }
+  this->SetLookParameters(program);
+}
+
+void vtkHandEyeLensMapper::SetLookParameters(vtkShaderProgram* program)
+{
+  // Uniforms that the shader as built does not use are passed over.
+  const handeye::LensAppearance& look = this->Appearance;
+  program->SetUniformf("lensRimStrength", float(this->RimStrength));
+  program->SetUniformf("lensOutputAlpha", float(look.outputAlpha));
+  program->SetUniformf("lensOpacity", float(look.opacity));
+  program->SetUniformf("lensClipDepth", float(look.clipDepthMm));
+  program->SetUniformf("lensRowOffset", float(look.eye.rowOffset));
+  program->SetUniformf("lensGhosting", float(look.ghosting));
+  program->SetUniformf("lensVideoSwap", look.videoIsBgr ? 1.0f : 0.0f);
+  set2(program, "lensDepthRange", look.depthRangeMm[0], look.depthRangeMm[1]);
+  set2(program, "lensVideoSize", look.videoSize[0], look.videoSize[1]);
+  set3(program, "lensKeyhole", look.keyhole[0], look.keyhole[1], look.keyhole[2]);
+  set4(program, "lensPicture", look.picture[0], look.picture[1], 1 / look.picture[2], 1 / look.picture[3]);
+  if (this->VideoUnit >= 0)
+  {
+    program->SetUniformi("lensVideo", this->VideoUnit);
+  }
+  if (look.undistortedVideo)
+  {
+    program->SetUniform1fv("lookupK", int(look.lookup.coefficients.size()), look.lookup.coefficients.data());
+    std::array<float, 9> tilt = look.lookup.tilt;
+    program->SetUniformMatrix3x3("lookupTilt", tilt.data());
+    set4(program, "lookupPinhole", look.pinhole[0], look.pinhole[1], look.pinhole[2], look.pinhole[3]);
   }
 }

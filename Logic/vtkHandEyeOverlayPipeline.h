@@ -3,14 +3,19 @@
 #pragma once
 
 #include "CameraModel.h"
+#include "OverlayLook.h"
+#include "OverlayStylus.h"
 #include "vtkSlicerHandEyeCalibrationModuleLogicExport.h"
 
+#include <Eigen/Core>
 #include <opencv2/core.hpp>
 #include <vtkObject.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
+class vtkHandEyeOverlayScene;
 class vtkImageData;
 class vtkMatrix4x4;
 class vtkPolyData;
@@ -19,16 +24,19 @@ class vtkRenderWindow;
 
 /// Draws a mesh on a live video where the camera would see it: the augmented view of the navigation, on screen or into a picture.
 ///
-/// The video is shown as the camera records it, lens distortion included; the mesh is bent as the lens bends light, so that both
-/// fit over the whole picture, at any depth. In a window of any size the picture is letterboxed (centred, never stretched), and
-/// video and mesh stay registered through every resize and device pixel ratio. Away from the mesh, no pixel of the video is
-/// changed.
+/// Two ways with the lens (OverlayLook::undistorted). Raw: the video is shown as the camera records it, and the mesh is bent as the
+/// lens bends light. Undistorted: the graphics card straightens the video, to what a pinhole camera with the same focal lengths,
+/// principal point and size would see, and the mesh is drawn plainly. Either way both fit over the whole picture, at any depth. In
+/// a window of any size the picture is letterboxed (centred, never stretched), and
+/// video and mesh stay registered through every resize and device pixel ratio. Away from what is drawn, no pixel of the raw video
+/// is changed.
 ///
 ///     p_Camera = modelToCamera * p_Model        then as CameraModel projects it; Camera: x right, y down, z forward; mm
 ///
-/// Long edges are divided until the largest error of drawing them straight is below 0.05 px at the nearest working distance
-/// (SetNearestDistanceMm, GetEdgeErrorPx). The model is not drawn where the lens model cannot be believed
-/// (CameraModel::maximumRadius()), nor while the video's size is not the camera's; GetProblem() then says why.
+/// Long edges are divided until the largest error of drawing them straight is below 0.05 px at the model's distance
+/// (GetEdgeErrorPx), or at the nearest one that is worked at (SetNearestDistanceMm) where it is nearer. The model is not drawn
+/// where the lens model cannot be believed (CameraModel::maximumRadius()), nor while the video's size is not the camera's;
+/// GetProblem() then says why.
 ///
 /// Setters take effect at the next rendering; none renders. All calls belong to the thread that renders.
 class VTK_SLICER_HANDEYECALIBRATION_MODULE_LOGIC_EXPORT vtkHandEyeOverlayPipeline : public vtkObject
@@ -57,6 +65,37 @@ public:
   /// @throws std::invalid_argument if it is null or not finite
   void SetModelToCamera(vtkMatrix4x4* modelToCamera);
 
+  /// How it looks; @throws std::invalid_argument as OverlayLook::check() does
+  void SetLook(const handeye::OverlayLook& look);
+  const handeye::OverlayLook& GetLook();
+
+  /// Does what handeye::overlayKeys() says of a key; the look and the opacity change. @return false for a key without a meaning
+  bool HandleKey(char key);
+
+  /// The whole overlay over the video, 1 (all there) to 0 (gone): a model whose pose is old fades. @sa handeye::judgePoseAge()
+  void SetFade(double fade);
+  double GetFade();
+
+  /// A sentence in the picture, for the person in front of it: which tool is not seen. Empty: none.
+  void SetNotice(const std::string& notice);
+  std::string GetNotice();
+
+  /// Covariance of the hand-eye calibration (rotation vector rad, translation mm; `Camera` frame), for the halo; nothing: not
+  /// known.
+  /// @throws std::invalid_argument if a number is not finite
+  void SetCalibrationCovariance(const std::optional<Eigen::Matrix<double, 6, 6>>& covariance);
+
+  /// The error (px of the picture, root mean square of both directions) that the covariance predicts in the model's middle; nothing
+  /// without a covariance, or where the middle is not in view of the lens model.
+  std::optional<double> GetPredictedErrorPx();
+
+  /// What the stylus looks like; @throws std::invalid_argument as StylusShape::check() does
+  void SetStylusShape(const handeye::StylusShape& shape);
+
+  /// Where the stylus is: p_Camera = stylusTipToCamera * p_StylusTip, mm; copied. Null: it is not seen, nothing of it is shown.
+  /// @throws std::invalid_argument if it is not finite
+  void SetStylusTipToCamera(vtkMatrix4x4* stylusTipToCamera);
+
   void SetModelVisible(bool visible);
   bool GetModelVisible();
 
@@ -76,7 +115,8 @@ public:
   void SetNearestDistanceMm(double distance);
   double GetNearestDistanceMm();
 
-  /// By how many pixels an edge of the model is drawn too straight at the nearest distance, at most; 0 without a lens or a model.
+  /// By how many pixels an edge of the model is drawn too straight where it is, but at the nearest distance if it is nearer, at
+  /// most; 0 without a lens or a model.
   double GetEdgeErrorPx();
 
   /// Why the model is not drawn, as a sentence for the person in front of the screen; empty if it is (or is hidden on purpose).
@@ -90,8 +130,9 @@ public:
   /// with a vtkHandEyeLensMapper also gets the lens.
   vtkRenderer* GetModelRenderer();
 
-  /// Between pixels of the attached window (device px from the lower left corner; whole numbers are pixel centres) and of the video
-  /// (from the upper left corner), as last rendered. @return false if nothing was rendered yet
+  /// Between pixels of the attached window (device px from the lower left corner; whole numbers are pixel centres) and of the
+  /// recorded video (from the upper left corner; also while it is shown undistorted), as last rendered.
+  /// @return false if nothing was rendered yet, or for a place that the lens model does not reach
   bool DisplayToImage(const double point_Display[2], double point_Image[2]);
   bool ImageToDisplay(const double point_Image[2], double point_Display[2]);
 
@@ -107,6 +148,9 @@ protected:
 private:
   vtkHandEyeOverlayPipeline(const vtkHandEyeOverlayPipeline&) = delete;
   void operator=(const vtkHandEyeOverlayPipeline&) = delete;
+
+  friend class vtkHandEyeStereoOverlay;
+  void ConnectScene(vtkHandEyeOverlayScene* scene);
 
   class Internals;
   std::unique_ptr<Internals> Internal;

@@ -3,6 +3,8 @@
 #include "vtkHandEyeOverlayScene.h"
 
 #include "vtkHandEyeLensMapper.h"
+#include "vtkHandEyeOutlinePass.h"
+#include "vtkHandEyeVideoMapper.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -13,17 +15,18 @@
 #include <vtkMath.h>
 #include <vtkMatrix4x4.h>
 #include <vtkObjectFactory.h>
-#include <vtkPlaneSource.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
 #include <vtkTexture.h>
 #include <vtkTransform.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 vtkStandardNewMacro(vtkHandEyeOverlayScene);
 
@@ -31,10 +34,6 @@ namespace
 {
 
 constexpr int LayerCount = 3;
-constexpr double NearestMm = 1;      // the near plane: nothing is looked at from closer than this
-constexpr double DepthRatio = 1e-4;  // least near/far, for a depth buffer of 24 bits
-constexpr double ModelRimStrength = 0.85;
-
 void addLight(vtkRenderer* renderer, double x, double y, double z, double intensity, double red, double green, double blue)
 {
   vtkNew<vtkLight> light;
@@ -44,23 +43,6 @@ void addLight(vtkRenderer* renderer, double x, double y, double z, double intens
   light->SetIntensity(intensity);
   light->SetColor(red, green, blue);
   renderer->AddLight(light);
-}
-
-/// Smallest and largest Z of a mesh's bounding box in the Camera frame.
-std::array<double, 2> depthRange(vtkPolyData* mesh, vtkMatrix4x4* modelToCamera)
-{
-  double bounds[6];
-  mesh->GetBounds(bounds);
-  std::array<double, 2> range{ VTK_DOUBLE_MAX, -VTK_DOUBLE_MAX };
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const double corner_Model[4] = { bounds[corner & 1], bounds[2 + ((corner >> 1) & 1)], bounds[4 + ((corner >> 2) & 1)], 1 };
-    double corner_Camera[4];
-    modelToCamera->MultiplyPoint(corner_Model, corner_Camera);
-    range[0] = std::min(range[0], corner_Camera[2]);
-    range[1] = std::max(range[1], corner_Camera[2]);
-  }
-  return range;
 }
 
 }  // namespace
@@ -76,8 +58,12 @@ vtkHandEyeOverlayScene::vtkHandEyeOverlayScene()
     // A culler would judge by the undistorted place of the model.
     renderers[layer]->GetCullers()->RemoveAllItems();
   }
+  // Only the model looks at depths.
+  this->BarsRenderer->PreserveDepthBufferOn();
+  this->VideoRenderer->PreserveDepthBufferOn();
   this->SetUpVideo();
   this->SetUpModel();
+  this->SetUpTexts();
   this->BarsRenderer->AddObserver(vtkCommand::StartEvent, this, &vtkHandEyeOverlayScene::Synchronize);
 }
 
@@ -88,17 +74,12 @@ vtkHandEyeOverlayScene::~vtkHandEyeOverlayScene()
 
 void vtkHandEyeOverlayScene::SetUpVideo()
 {
-  vtkNew<vtkPlaneSource> plane;
-  plane->SetOrigin(-1, -1, 0);
-  plane->SetPoint1(1, -1, 0);
-  plane->SetPoint2(-1, 1, 0);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(plane->GetOutputPort());
   this->VideoTexture->SetColorModeToDirectScalars();
   this->VideoTexture->EdgeClampOn();
-  this->VideoActor->SetMapper(mapper);
+  this->VideoActor->SetMapper(this->VideoMapper);
   this->VideoActor->SetTexture(this->VideoTexture);
   this->VideoActor->GetProperty()->LightingOff();
+  this->VideoActor->ForceOpaqueOn();
   this->VideoRenderer->AddActor(this->VideoActor);
 
   // The plane fills the viewport exactly, whatever the viewport's aspect.
@@ -115,17 +96,20 @@ void vtkHandEyeOverlayScene::SetUpVideo()
 
 void vtkHandEyeOverlayScene::SetUpModel()
 {
-  for (vtkHandEyeLensMapper* mapper : { this->DepthMapper.Get(), this->ModelMapper.Get() })
+  const std::pair<vtkHandEyeLensMapper*, vtkActor*> drawn[] = { { this->DepthMapper, this->DepthActor },
+    { this->BodyMapper, this->BodyActor }, { this->ModelMapper, this->ModelActor }, { this->RayMapper, this->RayActor },
+    { this->TipMapper, this->TipActor } };
+  for (const auto& [mapper, actor] : drawn)
   {
     mapper->ScalarVisibilityOff();
+    actor->SetMapper(mapper);
+    actor->SetVisibility(false);
+    // Translucent, yet drawn with the opaque ones: the mapper mixes the video in, so there is nothing to sort.
+    actor->ForceOpaqueOn();
+    this->ModelRenderer->AddActor(actor);
   }
   this->DepthMapper->SetDepthOnly(true);
-  this->DepthActor->SetMapper(this->DepthMapper);
-  this->ModelActor->SetMapper(this->ModelMapper);
-  // Translucent, yet drawn with the opaque ones: the depth pass before it leaves one surface to blend, so there is nothing to sort.
-  this->ModelActor->ForceOpaqueOn();
-  this->ModelRenderer->AddActor(this->DepthActor);
-  this->ModelRenderer->AddActor(this->ModelActor);
+  this->TipMapper->SetAlwaysInFront(true);
 
   this->ModelRenderer->AutomaticLightCreationOff();
   addLight(this->ModelRenderer, -0.5, 0.7, 1, 1.0, 1, 0.98, 0.95);
@@ -136,6 +120,23 @@ void vtkHandEyeOverlayScene::SetUpModel()
   camera->SetPosition(0, 0, 0);
   camera->SetFocalPoint(0, 0, 1);
   camera->SetViewUp(0, -1, 0);
+}
+
+void vtkHandEyeOverlayScene::SetUpTexts()
+{
+  for (vtkTextActor* actor : { this->NoticeActor.Get(), this->LegendActor.Get() })
+  {
+    actor->SetVisibility(false);
+    actor->GetTextProperty()->SetColor(1, 1, 1);
+    actor->GetTextProperty()->SetBackgroundColor(0, 0, 0);
+    actor->GetTextProperty()->SetBackgroundOpacity(0.6);
+    actor->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+    this->ModelRenderer->AddActor2D(actor);
+  }
+  this->NoticeActor->SetPosition(0.02, 0.03);
+  this->NoticeActor->GetTextProperty()->SetColor(1, 0.85, 0.2);
+  this->LegendActor->SetPosition(0.02, 0.97);
+  this->LegendActor->GetTextProperty()->SetVerticalJustificationToTop();
 }
 
 void vtkHandEyeOverlayScene::SetStateSource(std::function<const vtkHandEyeOverlayState&()> source)
@@ -172,16 +173,16 @@ void vtkHandEyeOverlayScene::AttachTo(vtkRenderWindow* window)
   }
 }
 
-std::array<int, 4> vtkHandEyeOverlayScene::Letterbox(const std::array<int, 2>& imageSize, const int windowSize[2])
+std::array<int, 4> vtkHandEyeOverlayScene::Letterbox(const std::array<double, 2>& imageSize, const std::array<int, 4>& area)
 {
-  if (imageSize[0] < 1 || imageSize[1] < 1)
+  if (!(imageSize[0] > 0 && imageSize[1] > 0))
   {
-    return { 0, 0, windowSize[0], windowSize[1] };
+    return area;
   }
-  const double scale = std::min(double(windowSize[0]) / imageSize[0], double(windowSize[1]) / imageSize[1]);
-  const int width = std::clamp(vtkMath::Round(imageSize[0] * scale), 1, std::max(1, windowSize[0]));
-  const int height = std::clamp(vtkMath::Round(imageSize[1] * scale), 1, std::max(1, windowSize[1]));
-  return { (windowSize[0] - width) / 2, (windowSize[1] - height) / 2, width, height };
+  const double scale = std::min(area[2] / imageSize[0], area[3] / imageSize[1]);
+  const int width = std::clamp(vtkMath::Round(imageSize[0] * scale), 1, std::max(1, area[2]));
+  const int height = std::clamp(vtkMath::Round(imageSize[1] * scale), 1, std::max(1, area[3]));
+  return { area[0] + (area[2] - width) / 2, area[1] + (area[3] - height) / 2, width, height };
 }
 
 void vtkHandEyeOverlayScene::Synchronize()
@@ -195,7 +196,11 @@ void vtkHandEyeOverlayScene::Synchronize()
   this->SynchronizeVideo(state);
   this->SynchronizeCamera(state);
   this->SynchronizeModel(state);
+  this->SynchronizeProperty(state);
   this->SynchronizeAppearance(state);
+  this->SynchronizeStylus(state);
+  this->SynchronizeOutline(state);
+  this->SynchronizeTexts(state);
 }
 
 void vtkHandEyeOverlayScene::SynchronizeViewports(const vtkHandEyeOverlayState& state)
@@ -205,28 +210,39 @@ void vtkHandEyeOverlayScene::SynchronizeViewports(const vtkHandEyeOverlayState& 
   {
     return;
   }
-  this->PictureRectangle = Letterbox(state.ImageSize, windowSize);
-  const auto& [x, y, width, height] = this->PictureRectangle;
-  for (vtkRenderer* renderer : { this->VideoRenderer.Get(), this->ModelRenderer.Get() })
+  const int left = vtkMath::Round(this->Area[0] * windowSize[0]), bottom = vtkMath::Round(this->Area[1] * windowSize[1]);
+  const int right = vtkMath::Round((this->Area[0] + this->Area[2]) * windowSize[0]);
+  const int top = vtkMath::Round((this->Area[1] + this->Area[3]) * windowSize[1]);
+  const std::array<int, 4> area{ left, bottom, right - left, top - bottom };
+  this->PictureRectangle = Letterbox({ state.ImageSize[0] * this->Squeeze[0], state.ImageSize[1] * this->Squeeze[1] }, area);
+  const auto place = [&windowSize](vtkRenderer* renderer, const std::array<int, 4>& rectangle)
   {
+    const auto& [x, y, width, height] = rectangle;
     renderer->SetViewport(
       double(x) / windowSize[0], double(y) / windowSize[1], double(x + width) / windowSize[0], double(y + height) / windowSize[1]);
-  }
+  };
+  place(this->BarsRenderer, area);
+  place(this->VideoRenderer, this->PictureRectangle);
+  place(this->ModelRenderer, this->PictureRectangle);
 }
 
 void vtkHandEyeOverlayScene::SynchronizeVideo(const vtkHandEyeOverlayState& state)
 {
+  const bool undistorted = state.Look.undistorted && state.UndistortedMesh;
   const bool visible = state.Video && state.ImageSize[0] > 0 && state.ImageSize[1] > 0 && !state.MaskMode;
   this->VideoActor->SetVisibility(visible);
   if (!visible)
   {
     return;
   }
+  this->VideoMapper->SetInputData(undistorted ? state.UndistortedMesh : state.RawMesh);
+  this->VideoMapper->SetBgr(state.VideoIsBgr);
+  this->VideoMapper->SetEye(this->Channel());
   this->VideoTexture->SetInputData(state.Video);
   // Nearest neighbours where a pixel of the video is a whole number of pixels here: the video then stays as it is, to the last bit.
   const int width = this->PictureRectangle[2], height = this->PictureRectangle[3];
   const bool whole = width % state.ImageSize[0] == 0 && height % state.ImageSize[1] == 0;
-  this->VideoTexture->SetInterpolate(!whole);
+  this->VideoTexture->SetInterpolate(undistorted || !whole);
 }
 
 void vtkHandEyeOverlayScene::SynchronizeCamera(const vtkHandEyeOverlayState& state)
@@ -254,49 +270,29 @@ void vtkHandEyeOverlayScene::SynchronizeCamera(const vtkHandEyeOverlayState& sta
   }
 }
 
-void vtkHandEyeOverlayScene::SynchronizeModel(const vtkHandEyeOverlayState& state)
+handeye::EyeChannel vtkHandEyeOverlayScene::Channel() const
 {
-  const bool visible = state.Camera && state.Mesh && state.ModelVisible && (state.Opacity > 0 || state.MaskMode);
-  const bool translucent = state.Opacity < 1 && !state.MaskMode;
-  this->ModelActor->SetVisibility(visible);
-  this->DepthActor->SetVisibility(visible && translucent);
-  if (!visible)
+  handeye::EyeChannel channel;
+  const int height = this->Window ? this->Window->GetActualSize()[1] : 0;
+  switch (this->EyeMode)
   {
-    return;
+    case Eye::Both:
+      break;
+    case Eye::LeftRows:  // the uppermost row, the third, ...
+      channel.alternateRows = true;
+      channel.rowOffset = (height + 1) % 2;
+      break;
+    case Eye::RightRows:
+      channel.alternateRows = true;
+      channel.rowOffset = height % 2;
+      break;
+    case Eye::RedOfLeft:
+      channel.colors = { true, false, false };
+      channel.luma = true;
+      break;
+    case Eye::CyanOfRight:
+      channel.colors = { false, true, true };
+      break;
   }
-  for (vtkHandEyeLensMapper* mapper : { this->DepthMapper.Get(), this->ModelMapper.Get() })
-  {
-    mapper->SetInputData(state.Mesh);
-    mapper->SetLensWarp(state.Warp);
-  }
-  for (vtkActor* actor : { this->DepthActor.Get(), this->ModelActor.Get() })
-  {
-    actor->SetUserMatrix(state.ModelToCamera);
-  }
-  const std::array<double, 2> range = depthRange(state.Mesh, state.ModelToCamera);
-  const double farthest = std::max(1.01 * range[1], 2 * NearestMm);
-  const double nearest = std::max({ 0.99 * range[0], NearestMm, DepthRatio * farthest });
-  this->ModelRenderer->GetActiveCamera()->SetClippingRange(nearest, farthest);
-}
-
-void vtkHandEyeOverlayScene::SynchronizeAppearance(const vtkHandEyeOverlayState& state)
-{
-  vtkProperty* property = this->ModelActor->GetProperty();
-  // Ambient light alone is the colour itself, to the last bit: a mask is white without any shading.
-  property->SetAmbient(state.MaskMode ? 1 : 0.18);
-  property->SetDiffuse(state.MaskMode ? 0 : 0.85);
-  property->SetSpecular(state.MaskMode ? 0 : 0.25);
-  property->SetSpecularPower(30);
-  property->SetOpacity(state.MaskMode ? 1 : state.Opacity);
-  if (state.MaskMode)
-  {
-    property->SetColor(1, 1, 1);
-  }
-  else
-  {
-    property->SetColor(state.Color[0], state.Color[1], state.Color[2]);
-  }
-  property->SetSpecularColor(1, 1, 1);
-  // A faint model has faint outlines.
-  this->ModelMapper->SetRimStrength(state.MaskMode ? 0 : ModelRimStrength * std::min(1.0, 2 * state.Opacity));
+  return channel;
 }

@@ -57,6 +57,11 @@ struct StoredCalibration
 /// @throws io::FileError naming the key; also where the file's status is not "ok"
 StoredCalibration readCalibration(const std::filesystem::path& path);
 
+/// The covariance (rotation vector rad, translation mm; camera frame) of a calibration.json; nothing where the file does not hold
+/// it.
+/// @throws io::FileError where it is none
+std::optional<Eigen::Matrix<double, 6, 6>> readCalibrationCovariance(const std::filesystem::path& path);
+
 /// markerToRightCamera of a stereo rig's calibration.json; nothing where it has one camera. @throws io::FileError naming the key
 std::optional<Eigen::Isometry3d> readMarkerToRightCamera(const std::filesystem::path& path);
 

@@ -105,6 +105,30 @@ Eigen::Isometry3d readTransform(const Path& path, const json& object, const char
   return *rigid;
 }
 
+/// Rows of numbers that are symmetric and have no negative eigenvalue.
+template<int size> Eigen::Matrix<double, size, size> readCovariance(const Path& path, const json& value, const char* key)
+{
+  Eigen::Matrix<double, size, size> covariance = Eigen::Matrix<double, size, size>::Zero();
+  bool isMatrix = value.is_array() && value.size() == size;
+  for (std::size_t row = 0; isMatrix && row < size; ++row)
+  {
+    isMatrix = value[row].is_array() && value[row].size() == size;
+    for (std::size_t column = 0; isMatrix && column < size; ++column)
+    {
+      covariance(Eigen::Index(row), Eigen::Index(column)) = readNumber(path, value[row][column], key);
+    }
+  }
+  const bool isSymmetric = (covariance - covariance.transpose()).norm() <= 1e-6 * covariance.norm();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, size, size>> spectrum(covariance, Eigen::EigenvaluesOnly);
+  if (!isMatrix || !isSymmetric || spectrum.eigenvalues()(0) < -1e-9 * covariance.norm())
+  {
+    const std::string number = size == 3 ? "three" : "six";
+    throw io::FileError(
+      path, std::string("\"") + key + "\": a covariance, " + number + " rows of " + number + " numbers, is expected");
+  }
+  return covariance;
+}
+
 }  // namespace
 
 Eigen::Vector3d readStylusTip(const Path& path)
@@ -116,27 +140,14 @@ Eigen::Matrix3d readStylusTipCovariance(const Path& path)
 {
   const char* key = "tipCovariance_Mm2";
   const json value = readResult(path, "tip_Stylus_Mm").value(key, json());
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  if (value.is_null())
-  {
-    return covariance;
-  }
-  bool isMatrix = value.is_array() && value.size() == 3;
-  for (std::size_t row = 0; isMatrix && row < 3; ++row)
-  {
-    isMatrix = value[row].is_array() && value[row].size() == 3;
-    for (std::size_t column = 0; isMatrix && column < 3; ++column)
-    {
-      covariance(Eigen::Index(row), Eigen::Index(column)) = readNumber(path, value[row][column], key);
-    }
-  }
-  const bool isSymmetric = (covariance - covariance.transpose()).norm() <= 1e-6 * covariance.norm();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spectrum(covariance, Eigen::EigenvaluesOnly);
-  if (!isMatrix || !isSymmetric || spectrum.eigenvalues()(0) < -1e-9 * covariance.norm())
-  {
-    throw io::FileError(path, std::string("\"") + key + "\": a covariance, three rows of three numbers, is expected");
-  }
-  return covariance;
+  return value.is_null() ? Eigen::Matrix3d(Eigen::Matrix3d::Zero()) : readCovariance<3>(path, value, key);
+}
+
+std::optional<Eigen::Matrix<double, 6, 6>> readCalibrationCovariance(const Path& path)
+{
+  const char* key = "covariance";
+  const json value = readResult(path, "markerToCamera").value(key, json());
+  return value.is_null() ? std::nullopt : std::optional(readCovariance<6>(path, value, key));
 }
 
 std::optional<Eigen::Isometry3d> readStylusTipFrame(const Path& path)

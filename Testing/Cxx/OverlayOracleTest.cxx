@@ -124,6 +124,8 @@ Eigen::Isometry3d somePose()
   return modelToCamera;
 }
 
+constexpr int DiscCorners = 24;
+
 /// A mesh put together from points in the Camera frame, stored in the Model frame of somePose().
 class MeshInCamera
 {
@@ -139,7 +141,7 @@ public:
   /// A flat disc facing along the axis: its outline's centroid is the image of its centre, but for the lens' curvature.
   void disc(const Eigen::Vector3d& centre_Camera, double radiusMm)
   {
-    constexpr int corners = 24;
+    constexpr int corners = DiscCorners;
     const vtkIdType first = this->Points->GetNumberOfPoints();
     for (int i = 0; i < corners; ++i)
     {
@@ -165,6 +167,14 @@ private:
   vtkNew<vtkCellArray> Faces;
 };
 
+/// What the straightened picture of this lens is: the same camera without its distortion.
+Lens straightened(const Lens& lens)
+{
+  Lens plain = lens;
+  plain.k.clear();
+  return plain;
+}
+
 vtkSmartPointer<vtkHandEyeOverlayPipeline> maskPipeline(const Lens& lens, vtkPolyData* mesh)
 {
   handeye::registerOffscreenRendering();
@@ -184,12 +194,42 @@ struct MarkerField
   std::vector<Eigen::Vector2d> expected_Image;
 };
 
+/// Where plain arithmetic sees the middle of a disc's image: the centroid of its bent outline, which near the end of a lens model
+/// is not the image of the disc's middle.
+Eigen::Vector2d discCentroid(const Lens& lens, const Eigen::Vector2d& centre_Normalized, double radius_Normalized)
+{
+  constexpr int pointsOfAnEdge = 8;
+  std::vector<Eigen::Vector2d> outline;
+  for (int i = 0; i < DiscCorners * pointsOfAnEdge; ++i)
+  {
+    const auto corner = [&](int index)
+    {
+      const double angle = 2 * M_PI * index / DiscCorners;
+      return Eigen::Vector2d(centre_Normalized + radius_Normalized * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+    };
+    const double share = double(i % pointsOfAnEdge) / pointsOfAnEdge;
+    const Eigen::Vector2d point = (1 - share) * corner(i / pointsOfAnEdge) + share * corner(i / pointsOfAnEdge + 1);
+    outline.push_back(lens.pixel(point.x(), point.y()));
+  }
+  double area = 0;
+  Eigen::Vector2d moment(0, 0);
+  const Eigen::Vector2d origin = outline.front();
+  for (std::size_t i = 0; i + 1 < outline.size(); ++i)
+  {
+    const Eigen::Vector2d a = outline[i] - origin, b = outline[i + 1] - origin;
+    const double part = a.x() * b.y() - a.y() * b.x();
+    area += part;
+    moment += part * (a + b) / 3;
+  }
+  return origin + moment / area;
+}
+
 /// Markers over the whole picture, the corners included, at depths from 60 to 700 mm; and where plain arithmetic sees their
 /// centres.
-MarkerField markers(const Lens& lens, double radiusPx)
+/// @param largestRadius points beyond it (X/Z, Y/Z) are left out
+MarkerField markers(const Lens& lens, double radiusPx, int columns = 13, int rows = 10, double largestRadius = 1e9)
 {
   constexpr std::array<double, 4> depths = { 60, 150, 300, 700 };
-  constexpr int columns = 13, rows = 10;
   const double margin = radiusPx + 4;
   MarkerField field;
   MeshInCamera mesh;
@@ -200,11 +240,11 @@ MarkerField markers(const Lens& lens, double radiusPx)
       const Eigen::Vector2d wanted(margin + (lens.width - 1 - 2 * margin) * column / (columns - 1.0),
         margin + (lens.height - 1 - 2 * margin) * row / (rows - 1.0));
       Eigen::Vector2d seen;
-      if (lens.seenAt(wanted, seen))
+      if (lens.seenAt(wanted, seen) && seen.norm() < 0.97 * largestRadius)
       {
         const double z = depths[std::size_t(row + 3 * column) % depths.size()];
         mesh.disc(z * seen.homogeneous(), radiusPx * z / lens.fx);
-        field.expected_Image.push_back(lens.pixel(seen.x(), seen.y()));
+        field.expected_Image.push_back(discCentroid(lens, seen, radiusPx / lens.fx));
       }
     }
   }
@@ -243,6 +283,47 @@ Deviation deviation(const cv::Mat& mask, const std::vector<Eigen::Vector2d>& exp
     result.maxPx = std::max(result.maxPx, nearest);
   }
   return result;
+}
+
+/// The same by centres of brightness, for pictures with smooth edges: whole components, and nothing but components.
+Deviation weightedDeviation(const cv::Mat& picture, const std::vector<Eigen::Vector2d>& expected)
+{
+  cv::Mat labels;
+  const int found = cv::connectedComponents(picture > 0, labels, 8, CV_32S) - 1;
+  EXPECT_EQ(found, int(expected.size()));
+  std::vector<Eigen::Vector3d> sums(std::size_t(found + 1), Eigen::Vector3d::Zero());
+  for (int v = 0; v < picture.rows; ++v)
+  {
+    for (int u = 0; u < picture.cols; ++u)
+    {
+      sums[std::size_t(labels.at<int>(v, u))] += picture.at<uchar>(v, u) * Eigen::Vector3d(u, v, 1);
+    }
+  }
+  Deviation result;
+  for (const Eigen::Vector2d& place : expected)
+  {
+    double nearest = 1e9;
+    for (std::size_t label = 1; label < sums.size(); ++label)
+    {
+      nearest = std::min(nearest, (sums[label].hnormalized() - place).norm());
+    }
+    result.meanPx += nearest / double(expected.size());
+    result.maxPx = std::max(result.maxPx, nearest);
+  }
+  return result;
+}
+
+/// A round spot with a Gaussian profile (sigma 1.5 px), cut off where it would round to nothing.
+void drawDot(cv::Mat& picture, const Eigen::Vector2d& centre)
+{
+  for (int v = int(centre.y()) - 6; v <= int(centre.y()) + 7; ++v)
+  {
+    for (int u = int(centre.x()) - 6; u <= int(centre.x()) + 7; ++u)
+    {
+      const double value = 250 * std::exp(-(Eigen::Vector2d(u, v) - centre).squaredNorm() / (2 * 1.5 * 1.5));
+      picture.at<cv::Vec3b>(v, u) = cv::Vec3b::all(uchar(std::lround(value)));
+    }
+  }
 }
 
 cv::Mat renderedWindow(vtkRenderWindow* window, int width, int height)
@@ -380,6 +461,96 @@ TEST_P(OverlayOracle, FloorOfTwoTriangles_FromBehindTheCameraToFar_IsBentAndNotS
   std::cout << lens.name << ": " << inside << " pixels of the floor looked at, " << wrong << " wrong\n";
   EXPECT_GT(inside, 1000);
   EXPECT_EQ(wrong, 0);
+}
+
+TEST_P(OverlayOracle, FiveHundredMarkers_AreWhereArithmeticPutsThem_BothWays)
+{
+  // 25 x 20 over the whole picture, through the anti-aliased picture itself and not through a mask.
+  const Lens lens = GetParam();
+  for (const bool undistorted : { false, true })
+  {
+    const Lens shown = undistorted ? straightened(lens) : lens;
+    // Within 0.92 of the radius where the lens model ends: beyond, a marker is squeezed to less than a pixel's width.
+    const MarkerField field = markers(shown, 4, 25, 20, 0.92 / 0.97 * lens.foldRadius());
+    ASSERT_GT(field.expected_Image.size(), lens.name == "Wide" || lens.name == "StrongBarrel" ? 400u : 499u);
+    const auto pipeline = maskPipeline(lens, field.mesh);
+    pipeline->SetMaskMode(false);
+    pipeline->SetModelOpacity(1);
+    pipeline->SetVideoFrame(cv::Mat(lens.height, lens.width, CV_8UC3, cv::Scalar(0, 0, 0)));
+    handeye::OverlayLook look;
+    look.undistorted = undistorted;
+    pipeline->SetLook(look);
+    cv::Mat picture;
+    pipeline->RenderToImage(picture);
+    const Deviation off = weightedDeviation(grey(picture), field.expected_Image);
+    std::cout << lens.name << (undistorted ? ", undistorted video: " : ", raw video: ") << field.expected_Image.size()
+              << " markers, mean " << off.meanPx << " px, max " << off.maxPx << " px\n";
+    EXPECT_LT(off.meanPx, 0.1);
+    EXPECT_LT(off.maxPx, 0.3);
+  }
+}
+
+TEST_P(OverlayOracle, UndistortedVideo_ShowsWhatTheLensSawThere)
+{
+  // Blurred dots in the raw video, drawn with plain arithmetic, are to be found where a pinhole camera would see them: what fits
+  // the model in the undistorted picture must be the video as well.
+  const Lens lens = GetParam();
+  cv::Mat raw(lens.height, lens.width, CV_8UC3, cv::Scalar(0, 0, 0));
+  std::vector<Eigen::Vector2d> expected;
+  constexpr int columns = 25, rows = 20;
+  for (int i = 0; i < columns * rows; ++i)
+  {
+    const Eigen::Vector2d wanted(
+      12 + (lens.width - 25.0) * (i % columns) / (columns - 1), 12 + (lens.height - 25.0) * int(i / columns) / (rows - 1));
+    Eigen::Vector2d seen;
+    if (straightened(lens).seenAt(wanted, seen) && seen.norm() < 0.97 * lens.foldRadius())
+    {
+      const Eigen::Vector2d dot = lens.pixel(seen.x(), seen.y());
+      if (dot.x() > 8 && dot.y() > 8 && dot.x() < lens.width - 9 && dot.y() < lens.height - 9)
+      {
+        drawDot(raw, dot);
+        expected.push_back(wanted);
+      }
+    }
+  }
+  ASSERT_GT(expected.size(), 350u);
+  vtkNew<vtkPolyData> nothing;
+  const auto pipeline = maskPipeline(lens, nothing);
+  pipeline->SetMaskMode(false);
+  pipeline->SetVideoFrame(raw);
+  handeye::OverlayLook look;
+  look.undistorted = true;
+  pipeline->SetLook(look);
+  cv::Mat picture;
+  pipeline->RenderToImage(picture);
+  const Deviation off = weightedDeviation(grey(picture), expected);
+  std::cout << lens.name << ", undistorted video: " << expected.size() << " dots of the video, mean " << off.meanPx << " px, max "
+            << off.maxPx << " px\n";
+  EXPECT_LT(off.meanPx, 0.05);
+  EXPECT_LT(off.maxPx, 0.3);
+}
+
+TEST_P(OverlayOracle, UndistortedWindow_KnowsThePixelsOfTheRecordedVideo)
+{
+  const Lens lens = GetParam();
+  vtkNew<vtkPolyData> nothing;
+  const auto pipeline = maskPipeline(lens, nothing);
+  handeye::OverlayLook look;
+  look.undistorted = true;
+  pipeline->SetLook(look);
+  vtkNew<vtkRenderWindow> window;
+  pipeline->AttachTo(window);
+  window->SetSize(lens.width, lens.height);
+  window->Render();
+  const double x = 0.21, y = -0.17;
+  const double display[2] = { lens.fx * x + lens.cx, lens.height - 1 - (lens.fy * y + lens.cy) };
+  double image[2], back[2];
+  ASSERT_TRUE(pipeline->DisplayToImage(display, image));
+  EXPECT_NEAR(image[0], lens.pixel(x, y).x(), 1e-9);
+  EXPECT_NEAR(image[1], lens.pixel(x, y).y(), 1e-9);
+  ASSERT_TRUE(pipeline->ImageToDisplay(image, back));
+  EXPECT_NEAR(back[0], display[0], 1e-6);
+  EXPECT_NEAR(back[1], display[1], 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lenses, OverlayOracle, testing::ValuesIn(lenses), [](const auto& lens) { return lens.param.name; });

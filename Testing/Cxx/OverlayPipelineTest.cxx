@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CameraModel.h"
 #include "EigenVtk.h"
+#include "ImageBaseline.h"
 #include "OffscreenRendering.h"
 #include "vtkHandEyeOverlayPipeline.h"
 
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vtkAppendPolyData.h>
 #include <vtkCellArray.h>
 #include <vtkImageData.h>
-#include <vtkImageDifference.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
@@ -19,10 +18,8 @@
 #include <vtkRenderWindow.h>
 #include <vtkRendererCollection.h>
 #include <vtkSphereSource.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -30,6 +27,9 @@
 namespace
 {
 
+using handeye::test::expectLikeBaseline;
+using handeye::test::largestDifference;
+using handeye::test::renderedWindow;
 using Pipeline = vtkSmartPointer<vtkHandEyeOverlayPipeline>;
 
 Eigen::Matrix3d matrixOf(double fx, double fy, double cx, double cy)
@@ -148,46 +148,6 @@ cv::Mat renderedMask(const Pipeline& pipeline)
   cv::cvtColor(rendered(pipeline), mask, cv::COLOR_BGR2GRAY);
   pipeline->SetMaskMode(false);
   return mask;
-}
-
-cv::Mat renderedWindow(vtkRenderWindow* window, int width, int height)
-{
-  window->SetSize(width, height);
-  window->Render();
-  vtkNew<vtkUnsignedCharArray> pixels;
-  window->GetPixelData(0, 0, width - 1, height - 1, 0, pixels);
-  cv::Mat upright, picture;
-  cv::flip(cv::Mat(height, width, CV_8UC3, pixels->GetPointer(0)), upright, 0);
-  cv::cvtColor(upright, picture, cv::COLOR_RGB2BGR);
-  return picture;
-}
-
-double largestDifference(const cv::Mat& a, const cv::Mat& b)
-{
-  return a.size() == b.size() ? cv::norm(a, b, cv::NORM_INF) : std::numeric_limits<double>::infinity();
-}
-
-/// Compares with Testing/Baseline/<test>.<name>.png as VTK's own image tests do (shifts by a pixel are forgiven). A missing
-/// baseline is a failure that leaves the picture to look at.
-void expectLikeBaseline(const cv::Mat& picture, const std::string& name, double threshold)
-{
-  namespace fs = std::filesystem;
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  const std::string file = std::string(info->test_suite_name()) + "." + info->name() + name + ".png";
-  const fs::path baseline = fs::path(HANDEYE_BASELINE_DIR) / file, output = fs::path(HANDEYE_TEST_OUTPUT_DIR) / file;
-  fs::create_directories(output.parent_path());
-  ASSERT_TRUE(cv::imwrite(output.string(), picture));
-  ASSERT_TRUE(fs::exists(baseline)) << "no baseline " << baseline << "; the picture is " << output;
-  const cv::Mat expected = cv::imread(baseline.string());
-  ASSERT_EQ(expected.size(), picture.size());
-  vtkNew<vtkImageData> left, right;
-  handeye::toVtk(picture, left);
-  handeye::toVtk(expected, right);
-  vtkNew<vtkImageDifference> difference;
-  difference->SetInputData(left);
-  difference->SetImageData(right);
-  difference->Update();
-  EXPECT_LE(difference->GetThresholdedError(), threshold) << output << " differs from " << baseline;
 }
 
 }  // namespace
