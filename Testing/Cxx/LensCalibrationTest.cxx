@@ -29,7 +29,7 @@ CameraModel laparoscope4()
 
 CameraModel rational8()
 {
-  return makeCamera(960, 720, 760, 762, 482, 355, { 0.1, -0.05, 0.0006, -0.0009, 0.01, 0.3, -0.02, 0.01 });
+  return makeCamera(960, 720, 900, 902, 482, 355, { 0.1, -0.05, 0.0006, -0.0009, 0.01, 0.5, -0.02, 0.01 });
 }
 
 /// Tilted to all sides and all over the image; ChArUco and simulated points may leave it.
