@@ -130,9 +130,10 @@ Solved solveMotions(const std::vector<HandEyeMotion>& motions, Method method)
 
 std::string describe(const BranchAndBoundState& state)
 {
-  return "largest epipolar error " + fixedDigits(1000 * state.bestErrorRad, 3) + " mrad, " +
-    (state.isProven ? "proven to be within " : "no less than that without ") + fixedDigits(1000 * state.gapRad, 3) + " mrad" +
-    (state.isProven ? " of the least there is" : " is proven");
+  const std::string error = "largest epipolar error " + fixedDigits(1000 * state.bestErrorRad, 3) + " mrad, ";
+  const std::string gap = fixedDigits(1000 * state.gapRad, 3) + " mrad";
+  return state.isProven ? error + "proven to be within " + gap + " of the least there is"
+                        : error + "not proven to be the least: a gap of " + gap + " is left";
 }
 
 Solved solveBranchAndBound(const Problem& problem, const CameraModel& camera, const BoardHandEyeOptions& options,

@@ -17,7 +17,7 @@ using Status = LensCalibrationResult::Status;
 
 constexpr int FewestPointsOfView = 6;
 /// Views that are better than this (px) are no outliers, however good the others.
-constexpr double GoodEnoughPx = 0.1;
+constexpr double GoodEnoughPx = 0.25;
 constexpr double DegPerRad = 180 / EIGEN_PI;
 
 /// The views that take part, by their index.

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Boards on the command line: printing one, a lens from its pictures, the classical hand-eye calibration.
+#include "GeometryMatchers.h"  // before handeye::testing hides gtest's testing
+
 #include "BoardPicture.h"
 #include "BoardSimulation.h"
+#include "CameraFile.h"
 #include "CaptureSimulation.h"
 #include "CommandRunner.h"
-#include "GeometryMatchers.h"
 #include "ResultFiles.h"
 
 #include <gtest/gtest.h>

@@ -27,9 +27,15 @@ CameraModel laparoscope4()
   return makeCamera(720, 576, 812.3, 826, 366.9, 281.4, { -0.251, 0.094, 0.0008, -0.001 });
 }
 
+CameraModel narrow8()
+{
+  return makeCamera(960, 720, 900, 902, 482, 355, { 0.1, -0.05, 0.0006, -0.0009, 0.01, 0.5, -0.02, 0.01 });
+}
+
+/// Wide: up to 60 degrees off the axis, where polynomials no longer follow a rational function.
 CameraModel rational8()
 {
-  return makeCamera(960, 720, 760, 762, 482, 355, { 0.1, -0.05, 0.0006, -0.0009, 0.01, 0.3, -0.02, 0.01 });
+  return makeCamera(960, 720, 640, 642, 482, 355, { 0.35, 0.02, 0.0006, -0.0009, 0, 0.7, 0.1, 0 });
 }
 
 /// Tilted to all sides and all over the image; ChArUco and simulated points may leave it.
@@ -77,7 +83,7 @@ const BoardDescription Chess = parseBoard("chessboard:9x6:20");
 
 TEST(LensCalibration, NoiseFree_FindsEachModel)
 {
-  for (const CameraModel& camera : { laparoscope4(), webcam(), rational8() })
+  for (const CameraModel& camera : { laparoscope4(), webcam(), narrow8() })
   {
     Random random(1);
     const int coefficients = int(camera.distortionCoefficients().size());
