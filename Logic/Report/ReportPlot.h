@@ -13,7 +13,7 @@ namespace handeye::report
 
 using Color = std::array<unsigned char, 3>;  ///< red, green, blue
 
-/// One colour a method. Twelve that people who confuse red and green can tell apart by lightness, then again with another marker.
+/// One colour a method. Sixteen that people who confuse red and green can tell apart by lightness, then again with another marker.
 Color seriesColor(std::size_t index);
 
 struct PlotSeries
