@@ -19,7 +19,8 @@ namespace
 constexpr std::size_t MostPictures = 8;
 constexpr std::size_t MostPredictions = 6;
 
-/// The methods that are drawn on pictures: the best one, the best with a board, and those that the paper is about; more hide each other.
+/// The methods that are drawn on pictures: the best one, the best with a board, and those that the paper is about; more hide each
+/// other.
 std::vector<int> methodsToShow(const ComparisonResult& result)
 {
   std::vector<int> shown;

@@ -23,8 +23,8 @@ struct ComparisonReportInput
   std::vector<std::string> facts;            ///< sentences about captures, lens and noise: what was compared, from which files
 };
 
-/// The report of `handeye compare`: verdict, one row a method (the paper's tables 2-4), error against distance and against the number
-/// of samples, repeatability, predicted and segmented centres on the pictures; with the data as CSV.
+/// The report of `handeye compare`: verdict, one row a method (the paper's tables 2-4), error against distance and against the
+/// number of samples, repeatability, predicted and segmented centres on the pictures; with the data as CSV.
 [[nodiscard]] report::ReportDocument comparisonDocument(const ComparisonResult& result, const ComparisonReportInput& input);
 
 /// @throws as report::writeReport()

@@ -22,8 +22,8 @@ struct PredictedCenter
   std::string label;                                      ///< for the legend in the picture; none where empty
 };
 
-/// The whole frame with the ball's outline and, beside it, the surroundings of the centre so much enlarged that errors of a pixel are
-/// seen: the segmented centre as a green cross, each predicted one as a coloured cross with an arrow from the segmented to it.
+/// The whole frame with the ball's outline and, beside it, the surroundings of the centre so much enlarged that errors of a pixel
+/// are seen: the segmented centre as a green cross, each predicted one as a coloured cross with an arrow from the segmented to it.
 /// Predicted centres that would make the others too small to see leave the enlargement; their arrows say where to.
 ///
 /// @param image as recorded: 8 or 16 bits, grey, BGR or BGRA

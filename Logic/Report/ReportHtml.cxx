@@ -14,7 +14,8 @@ namespace
 
 /// Readable on a wide screen, on a telephone and on paper; colours are never the only sign.
 const char* const Style = R"(
-body { font: 16px/1.5 "DejaVu Sans", system-ui, sans-serif; color: #1b1b1b; background: #fff; max-width: 68em; margin: 0 auto; padding: 1em; }
+body { font: 16px/1.5 "DejaVu Sans", system-ui, sans-serif; color: #1b1b1b; background: #fff; }
+body { max-width: 68em; margin: 0 auto; padding: 1em; }
 h1 { font-size: 1.6em; line-height: 1.2; margin: .5em 0; }
 h2 { font-size: 1.25em; margin: 2em 0 .5em; border-bottom: 1px solid #ccc; padding-bottom: .2em; }
 .verdict { border-left: .5em solid #666; background: #f3f3f3; padding: .8em 1em; margin: 1em 0; font-size: 1.1em; }

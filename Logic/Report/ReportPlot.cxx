@@ -223,7 +223,8 @@ cv::Mat readPixels(vtkRenderWindow* window, int width, int height)
 Color seriesColor(std::size_t index)
 {
   static const Color colors[] = { { 0, 90, 181 }, { 213, 50, 32 }, { 0, 140, 110 }, { 230, 159, 0 }, { 140, 60, 160 },
-    { 90, 90, 90 }, { 60, 180, 220 }, { 150, 85, 20 }, { 235, 120, 165 }, { 120, 170, 40 }, { 20, 40, 90 }, { 190, 150, 220 } };
+    { 90, 90, 90 }, { 60, 180, 220 }, { 150, 85, 20 }, { 235, 120, 165 }, { 120, 170, 40 }, { 20, 40, 90 }, { 190, 150, 220 },
+    { 0, 0, 0 }, { 255, 110, 0 }, { 0, 205, 160 }, { 120, 0, 60 } };
   return colors[index % (sizeof(colors) / sizeof(colors[0]))];
 }
 

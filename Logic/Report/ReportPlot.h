@@ -13,7 +13,7 @@ namespace handeye::report
 
 using Color = std::array<unsigned char, 3>;  ///< red, green, blue
 
-/// One colour a method. Twelve that people who confuse red and green can tell apart by lightness, then again with another marker.
+/// One colour a method. Sixteen that people who confuse red and green can tell apart by lightness, then again with another marker.
 Color seriesColor(std::size_t index);
 
 struct PlotSeries
@@ -42,8 +42,8 @@ struct Plot
 
 /// Draws a plot with vtkChartXY, off screen, legend at the right.
 ///
-/// Renders with OpenGL as every VTK window does: a program without a display calls registerOffscreenRendering() first; with one, the
-/// window is never shown. All plots of a process are to be drawn in one thread.
+/// Renders with OpenGL as every VTK window does: a program without a display calls registerOffscreenRendering() first; with one,
+/// the window is never shown. All plots of a process are to be drawn in one thread.
 ///
 /// @return BGR, 8 bits
 /// @throws std::invalid_argument where lists differ in length, a number is not finite or there is nothing to draw;

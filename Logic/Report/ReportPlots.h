@@ -27,8 +27,8 @@ namespace handeye::report
 /// Of one validation: the error along x and y, a dot a frame; a cloud beside (0, 0) is a bias.
 [[nodiscard]] std::optional<Plot> errorDirections(const ValidationStepResult& validation);
 
-/// The fewest samples from which on the medians of a method stay within 10 % of what its largest subsets reach; nothing where it does
-/// not level out.
+/// The fewest samples from which on the medians of a method stay within 10 % of what its largest subsets reach; nothing where it
+/// does not level out.
 [[nodiscard]] std::optional<int> plateauOf(const MethodResult& method);
 
 }  // namespace handeye::report

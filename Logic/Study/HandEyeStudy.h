@@ -85,12 +85,12 @@ struct StudyResult
   bool isUsable() const { return status == "ok"; }
 };
 
-/// The paper's cameras in simulation: for each repetition and eye a capture of the ball, one of a board and a validation set, all with
-/// the noise of one tracker; every method on them.
+/// The paper's cameras in simulation: for each repetition and eye a capture of the ball, one of a board and a validation set, all
+/// with the noise of one tracker; every method on them.
 ///
 /// Seeds are fixed: the same options give the same numbers, but for the branch and bound where its time limit ends it.
-/// @throws std::invalid_argument as StudyOptions::check(); std::runtime_error where a camera's features are not found in its pictures
-/// Thread-safe.
+/// @throws std::invalid_argument as StudyOptions::check(); std::runtime_error where a camera's features are not found in its
+/// pictures Thread-safe.
 [[nodiscard]] StudyResult runStudy(const StudyOptions& options);
 
 /// Judges a camera's results; see StudyClaim.

@@ -33,8 +33,8 @@ struct StudyCamera
   double markerDistanceMm() const;  ///< of the first eye's centre from its marker's origin
 };
 
-/// The three kinds of camera of the paper: a webcam, a head-mounted pass-through stereo camera and a stereo laparoscope, whose marker
-/// sits on the handle, as it must outside of the patient. Each eye has its own lens.
+/// The three kinds of camera of the paper: a webcam, a head-mounted pass-through stereo camera and a stereo laparoscope, whose
+/// marker sits on the handle, as it must outside of the patient. Each eye has its own lens.
 std::vector<StudyCamera> studyCameras();
 
 }  // namespace handeye::study

@@ -13,8 +13,8 @@
 namespace handeye::study
 {
 
-/// Pictures of ball and board by one eye, and what our detectors find in them: the optics blur by 0.7 px, the sensor adds noise of 1.5
-/// steps of 8 bits. The ball is shaded by a lamp and has nothing behind it.
+/// Pictures of ball and board by one eye, and what our detectors find in them: the optics blur by 0.7 px, the sensor adds noise of
+/// 1.5 steps of 8 bits. The ball is shaded by a lamp and has nothing behind it.
 ///
 /// Thread-safe: nothing changes after construction, which takes about a second for a megapixel.
 class StudyPictures

@@ -12,8 +12,8 @@
 namespace handeye::study
 {
 
-/// The report of a study: whether the paper's claims hold, per camera the table of the methods (the paper's tables 2-4), error against
-/// distance, number of samples and repeatability, the noise and where it comes from; with the data as CSV.
+/// The report of a study: whether the paper's claims hold, per camera the table of the methods (the paper's tables 2-4), error
+/// against distance, number of samples and repeatability, the noise and where it comes from; with the data as CSV.
 [[nodiscard]] report::ReportDocument studyDocument(const StudyResult& result);
 
 /// The report, and its plots as PNG beside it. @throws as report::writeReport()

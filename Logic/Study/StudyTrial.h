@@ -41,9 +41,9 @@ struct StudyTrial
   Eigen::Matrix3d tipCovariance_Stylus = Eigen::Matrix3d::Zero();
 };
 
-/// One repetition for one eye, all of it from one tracker: a stylus is pivoted (its tip is what the pivot calibration finds), its ball is
-/// held at random places in the view and the depths, the camera looks at a board that stands still from random directions, and the ball is held at other places for the validation. Every pose of
-/// every marker has fresh noise.
+/// One repetition for one eye, all of it from one tracker: a stylus is pivoted (its tip is what the pivot calibration finds), its
+/// ball is held at random places in the view and the depths, the camera looks at a board that stands still from random directions,
+/// and the ball is held at other places for the validation. Every pose of every marker has fresh noise.
 ///
 /// @param pictures the features are found in rendered pictures, with the true lens; without, they are projected and given the noise
 /// Thread-safe, deterministic.

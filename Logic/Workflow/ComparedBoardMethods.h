@@ -19,8 +19,8 @@ struct BoardMethodsOptions
   bool withBranchAndBound = true;
 };
 
-/// The methods that calibrate with a board: `tsai`, `park`, `horaud`, `daniilidis`, `branch-and-bound` from a board that stands still;
-/// `tracked-board` and `tracked-board-lines` where a capture's views say where the tracker sees the board.
+/// The methods that calibrate with a board: `tsai`, `park`, `horaud`, `daniilidis`, `branch-and-bound` from a board that stands
+/// still; `tracked-board` and `tracked-board-lines` where a capture's views say where the tracker sees the board.
 ///
 /// @param captures the views of independent captures; views in which the board was not found are not among them
 [[nodiscard]] std::vector<ComparedMethod> boardMethods(

@@ -18,11 +18,11 @@ struct BallCapture
 };
 
 /// The methods that calibrate with the ball: ours (`ml`, `global`), the paper's iteration (`procrustes`) on the same samples, the
-/// paper's whole pipeline (`as-published`: its segmentation, its iteration, no sample left out) where there are samples of it, and the
-/// peers that solve the same problem as a perspective-n-point one (`oi`, `ppnp`, `epnp`, `sqpnp`, `iterative`).
+/// paper's whole pipeline (`as-published`: its segmentation, its iteration, no sample left out) where there are samples of it, and
+/// the peers that solve the same problem as a perspective-n-point one (`oi`, `ppnp`, `epnp`, `sqpnp`, `iterative`).
 ///
-/// Random subsets are drawn from the samples that `ml` keeps of the whole first capture, so that a wrong sample does not decide about
-/// small ones; they are judged by their outcome, not refused for being uncertain.
+/// Random subsets are drawn from the samples that `ml` keeps of the whole first capture, so that a wrong sample does not decide
+/// about small ones; they are judged by their outcome, not refused for being uncertain.
 ///
 /// @param options noise and consensus; `method` is each method's own
 [[nodiscard]] std::vector<ComparedMethod> ballMethods(

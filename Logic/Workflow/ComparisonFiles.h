@@ -12,8 +12,8 @@
 namespace handeye
 {
 
-/// A comparison as files: keys and columns for other programs (mm, px, seconds). CSV after RFC 4180: a heading, commas, quotes where a
-/// text needs them, points for decimals whatever the language; numbers that do not exist are empty, never 0.
+/// A comparison as files: keys and columns for other programs (mm, px, seconds). CSV after RFC 4180: a heading, commas, quotes
+/// where a text needs them, points for decimals whatever the language; numbers that do not exist are empty, never 0.
 
 /// What `handeye compare --json` prints.
 [[nodiscard]] nlohmann::json comparisonJson(const ComparisonResult& result);

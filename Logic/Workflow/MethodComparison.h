@@ -49,8 +49,8 @@ struct ComparedMethod
   int subsetPool = 0;
   /// The whole capture.
   std::function<MethodAnswer(int capture)> calibrate;
-  /// Some of the first capture's samples (0 to subsetPool - 1), however few: the method says itself when they are too few. Empty where
-  /// that would take too long.
+  /// Some of the first capture's samples (0 to subsetPool - 1), however few: the method says itself when they are too few. Empty
+  /// where that would take too long.
   std::function<MethodAnswer(const std::vector<int>& samples)> calibrateSome;
 };
 
@@ -118,9 +118,9 @@ struct ComparisonResult
 {
   std::vector<MethodResult> methods;  ///< in the order given
   std::vector<int> ranking;           ///< indices of the usable ones, lowest mean error first
-  /// Of the ranking, those whose mean error cannot be told from the best one's: the paired difference over the validation samples (from 5
-  /// captures on: over the captures) is below twice its standard error or, with fewer captures, below what another capture would have
-  /// changed.
+  /// Of the ranking, those whose mean error cannot be told from the best one's: the paired difference over the validation samples
+  /// (from 5 captures on: over the captures) is below twice its standard error or, with fewer captures, below what another capture
+  /// would have changed.
   std::vector<int> notToldApart;
   int validationCount = 0;
   bool wasStopped = false;

@@ -121,9 +121,9 @@ TEST_F(ReportPlot, NothingToDraw_IsRefused)
   EXPECT_THROW((void)drawPlot(plot), std::invalid_argument);
 }
 
-TEST_F(ReportPlot, Colours_DifferForTwelveMethods)
+TEST_F(ReportPlot, Colours_DifferForSixteenMethods)
 {
-  for (std::size_t i = 0; i < 12; ++i)
+  for (std::size_t i = 0; i < 16; ++i)
   {
     for (std::size_t k = 0; k < i; ++k)
     {
