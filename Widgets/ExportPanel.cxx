@@ -11,6 +11,7 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QMap>
 #include <QUrl>
 
 #include <algorithm>
@@ -49,7 +50,7 @@ public:
   void updateButtons();
   void list(const QString& html);
   void showMessage(const QString& text, Level level);
-  bool exportOne(const ExportFormat& format, const QDir& target, QStringList& problems, QStringList& warnings);
+  bool exportOne(const ExportFormat& format, const QDir& target, QStringList& problems, QMap<QString, QStringList>& warnings);
   bool hasCalibration() const { return !sources.calibration.empty(); }
   QString folder() const { return ui.folderEdit->text().trimmed(); }
 
@@ -137,7 +138,8 @@ void ExportPanel::Private::showMessage(const QString& text, Level level)
 }
 
 /// One format that cannot hold this camera does not keep the others from being written.
-bool ExportPanel::Private::exportOne(const ExportFormat& format, const QDir& target, QStringList& problems, QStringList& warnings)
+bool ExportPanel::Private::exportOne(
+  const ExportFormat& format, const QDir& target, QStringList& problems, QMap<QString, QStringList>& warnings)
 {
   try
   {
@@ -149,11 +151,7 @@ bool ExportPanel::Private::exportOne(const ExportFormat& format, const QDir& tar
     }
     for (const std::string& warning : result.warnings)
     {
-      const QString sentence = QStringLiteral("%1: %2").arg(QString::fromStdString(format.name), QString::fromStdString(warning));
-      if (!warnings.contains(sentence))
-      {
-        warnings += sentence;
-      }
+      warnings[QString::fromStdString(warning)] += QString::fromStdString(format.name);
     }
     return true;
   }
@@ -309,7 +307,8 @@ bool ExportPanel::exportNow()
     d->showMessage(tr("The folder %1 cannot be made.").arg(target.absolutePath()), Level::Error);
     return false;
   }
-  QStringList problems, warnings;
+  QStringList problems;
+  QMap<QString, QStringList> warnings;  // a sentence, and the formats that it is about
   int count = 0;
   const QStringList wanted = this->formats();
   for (const ExportFormat& format : exportFormats())
@@ -332,9 +331,10 @@ bool ExportPanel::exportNow()
   if (!warnings.isEmpty())
   {
     QString notes = tr("Notes:");
-    for (const QString& warning : warnings)
+    for (auto warning = warnings.cbegin(); warning != warnings.cend(); ++warning)
     {
-      notes += QStringLiteral("<br>• ") + warning.toHtmlEscaped();
+      const QString formats = warning.value().join(QStringLiteral(", "));
+      notes += QStringLiteral("<br>• %1: %2").arg(formats.toHtmlEscaped(), warning.key().toHtmlEscaped());
     }
     d->list(QStringLiteral("<p style=\"margin-top:8px\">%1</p>").arg(notes));
   }

@@ -112,7 +112,7 @@ private slots:
         { seriesOf(QStringLiteral("validation"), Points), seriesOf(QStringLiteral("fit"), { { 200, 0.2 }, { 350, 0.3 } }) });
       QTest::qWait(200);
       const QImage seen = plot.grab().toImage();
-      const QColor ground = seen.pixelColor(seen.width() - 6, seen.height() / 2);
+      const QColor ground = seen.pixelColor(seen.width() - 2, seen.height() / 2);
       QCOMPARE(ground, plot.palette().color(QPalette::Base));
       QVERIFY(countOf(seen, seriesColor(0, plot.palette())) > 60);
       QVERIFY(countOf(seen, seriesColor(1, plot.palette())) > 40);
@@ -129,7 +129,7 @@ private slots:
     QApplication::setPalette(testing_widgets::darkPalette());
     QTest::qWait(200);
     const QImage seen = plot.grab().toImage();
-    QCOMPARE(seen.pixelColor(seen.width() - 6, seen.height() / 2), testing_widgets::darkPalette().color(QPalette::Base));
+    QCOMPARE(seen.pixelColor(seen.width() - 2, seen.height() / 2), testing_widgets::darkPalette().color(QPalette::Base));
     QApplication::setPalette(testing_widgets::lightPalette());
   }
 
