@@ -25,11 +25,6 @@ QString screenshotFolder()
   return folder;
 }
 
-QString demo(const char* name)
-{
-  return QStringLiteral(HANDEYE_RESOURCES_DIR "/Demo/") + QString::fromLatin1(name);
-}
-
 /// Labels, buttons and boxes that get less room than their words need, or that lie outside of their parents or over one another.
 QStringList faultsOf(QWidget& page)
 {
