@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "LandmarkFiles.h"
 #include "VideoView.h"
 #include "WidgetTestSupport.h"
 #include "WizardDriver.h"
@@ -74,25 +75,24 @@ private:
 /// A session with everything in it, and the demo's recording as live video.
 void WizardScreensTest::fill(HandEyeCalibrationPanel& panel)
 {
+  const QString demo = QStringLiteral(HANDEYE_RESOURCES_DIR "/Demo/");
   HandEyeWorkbench& workbench = panel.workbench();
   handeye::DeviceSetup setup;
+  setup.kind = handeye::DeviceSetup::Kind::Recording;
+  setup.recording = demo + QStringLiteral("calibration");
   QVERIFY(workbench.connectDevices(setup));
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.problemOf(WizardStep::Devices).isEmpty(), PatienceMs);
+  QVERIFY(panel.openFile(demo + QStringLiteral("camera.yml")));
   panel.goTo(WizardStep::Stylus);
-  workbench.pivot().start(setup.stylusToTracker);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.stylus().has_value(), PatienceMs);
+  QVERIFY(panel.openFile(demo + QStringLiteral("pivot.igs.mha")));
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.stylus().has_value() && workbench.camera().has_value(), PatienceMs);
   panel.goTo(WizardStep::Capture);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.capture().samples().size() >= 8, PatienceMs);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.calibration() && workbench.calibration()->isUsable(), PatienceMs);
+  QVERIFY(panel.openFile(demo + QStringLiteral("calibration")));
   panel.goTo(WizardStep::Validation);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count >= 4, PatienceMs);
-  const handeye::simulation::RoomOptions& room = *workbench.devices().room();
-  std::vector<Eigen::Vector3d> points_Phantom;
-  for (const Eigen::Vector3d& landmark_Model : room.landmarks_Model)
-  {
-    points_Phantom.push_back(room.modelToPhantom * landmark_Model);
-  }
-  workbench.registerLandmarks(room.landmarks_Model, points_Phantom);
+  QVERIFY(panel.openFile(demo + QStringLiteral("validation")));
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count >= 8, PatienceMs);
+  const auto landmarks = handeye::readLandmarkLists((demo + QStringLiteral("phantom_model_points.txt")).toStdString(),
+    (demo + QStringLiteral("phantom_touched_points.txt")).toStdString());
+  workbench.registerLandmarks(landmarks.points_Model, landmarks.points_Phantom);
   QTRY_VERIFY_WITH_TIMEOUT(workbench.modelToPhantom().has_value(), PatienceMs);
 }
 
@@ -125,10 +125,6 @@ void WizardScreensTest::everyPage_AtBothSizes()
 {
   HandEyeCalibrationPanel panel(nullptr, nullptr);
   testing_widgets::show(panel, QSize(1280, 800));
-  auto room = panel.workbench().devices().roomOptions();
-  room.holdSec = 1;
-  room.moveSec = 0.4;
-  panel.workbench().devices().setRoomOptions(room);
   fill(panel);
   takePictures(panel, QSize(1280, 800), {});
   QApplication::setPalette(testing_widgets::darkPalette());
