@@ -25,8 +25,8 @@ vtkSmartPointer<vtkPolyData> markerShape();
 /// A camera: its body behind the origin, its lens at it, looking along +z.
 vtkSmartPointer<vtkPolyData> cameraShape();
 
-/// What a camera sees, as lines: the image's border at a depth, bent as the lens bends it, the edges from the centre to its corners,
-/// and a mark at the upper side. Parts that the lens model does not reach are left out.
+/// What a camera sees, as lines: the image's border at a depth, bent as the lens bends it, the edges from the centre to the
+/// corners, and a mark at the upper side. Parts that the lens model does not reach are left out.
 vtkSmartPointer<vtkPolyData> frustumShape(const CameraModel& camera, double depthMm);
 
 /// A stylus: a shaft from the marker to the tip.

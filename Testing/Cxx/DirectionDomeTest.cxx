@@ -25,7 +25,7 @@ private slots:
       QCOMPARE(dome.cellAt(dome.cellCenter(cell)), cell);
     }
     QCOMPARE(dome.cellAt({ 1, 1 }), -1);
-    // Sectors run counter-clockwise from -x: the first one of the ring is left, just below the middle; the fifth is right, above it.
+    // Sectors run counter-clockwise from -x: the first of a ring is left, just below the middle; the fifth is right, above it.
     const QPointF middle = dome.cellCenter(0), first = dome.cellCenter(9), fifth = dome.cellCenter(13);
     QVERIFY(first.x() < middle.x() && first.y() > middle.y());
     QVERIFY(fifth.x() > middle.x() && fifth.y() < middle.y());
