@@ -125,6 +125,14 @@ void DevicesPage::refresh()
   {
     widget->setEnabled(!isConnected);
   }
+  if (isConnected)
+  {
+    const DeviceSetup::Kind kind = hub.setup().kind;
+    (kind == DeviceSetup::Kind::SimulatedRoom ? ui_->roomButton
+        : kind == DeviceSetup::Kind::Servers  ? ui_->serversButton
+                                              : ui_->recordingButton)
+      ->setChecked(true);
+  }
   ui_->connectionLabel->setText(isConnected ? tr("connected") : tr("not connected"));
   ui_->sourceStatusLabel->setText(hub.status());
   ui_->sourceStatusLabel->setVisible(!hub.status().isEmpty());

@@ -24,6 +24,7 @@
 #include <QSplitter>
 #include <QVBoxLayout>
 
+#include <algorithm>
 #include <array>
 
 using handeye::HandEyeWorkbench;
@@ -211,6 +212,11 @@ void HandEyeCalibrationPanel::Private::refresh()
       problem);
   }
   currentPage().refresh();
+  // A stack of pages does not ask for the height that wrapped words need at this width.
+  if (const auto* layout = qobject_cast<QBoxLayout*>(currentPage().layout()))
+  {
+    ui.pages->setMinimumHeight(std::max(0, layout->minimumHeightForWidth(ui.scrollArea->viewport()->width())));
+  }
   const QString missing = workbench->missingFor(step), problem = workbench->problemOf(step);
   const bool isLast = step == WizardStep::Finish;
   ui.missingLabel->setText(missing);

@@ -50,7 +50,14 @@ VideoPresenter::VideoPresenter(HandEyeWorkbench& workbench, VideoView& view, QOb
   connect(&workbench_.live(), &LivePipeline::shown, this, &VideoPresenter::showFrame);
   connect(&workbench_, &HandEyeWorkbench::cameraChanged, this, &VideoPresenter::setLens);
   connect(&workbench_, &HandEyeWorkbench::calibrationChanged, this, &VideoPresenter::showGhost);
-  connect(&workbench_, &HandEyeWorkbench::stepEntered, this, &VideoPresenter::showGhost);
+  connect(&workbench_, &HandEyeWorkbench::stepEntered, this,
+    [this]
+    {
+      // What belonged to the page before goes at once, not with the next frame.
+      sinceShown_.invalidate();
+      showFrame();
+      showGhost();
+    });
   connect(&workbench_, &HandEyeWorkbench::modelChanged, this,
     [this]
     {
@@ -113,7 +120,7 @@ void VideoPresenter::showFrame()
 
 void VideoPresenter::showBall(const LiveView& shown)
 {
-  if (!shown.ball)
+  if (!shown.ball || !workbench_.live().settings().detects)
   {
     view_.setDetection({});
     return;
