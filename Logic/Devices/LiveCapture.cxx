@@ -37,6 +37,9 @@ std::optional<Eigen::Vector3d> placeOf(const io::SessionSample& sample)
   return isPoint ? std::optional<Eigen::Vector3d>(Eigen::Vector3d(place[0], place[1], place[2])) : std::nullopt;
 }
 
+/// A tool that is hidden for longer begins the rest anew.
+constexpr double LongestHiddenSec = 0.2;
+
 /// The ball must keep still in the marker's frame; how the stylus is turned about it does not matter.
 StillnessOptions stillnessOf(const LiveCaptureOptions& options)
 {
@@ -44,7 +47,7 @@ StillnessOptions stillnessOf(const LiveCaptureOptions& options)
   stillness.touch = StillnessOptions::Touch::Either;
   stillness.minimumDurationSec = options.stillSec;
   stillness.maximumMotionMm = options.stillMm;
-  stillness.maximumGapSec = std::min(0.2, options.stillSec);
+  stillness.maximumGapSec = 1;  // of a slow video; a tool that is hidden ends the rest sooner
   stillness.maximumExcursionSec = 0.1;
   return stillness;
 }
@@ -116,8 +119,13 @@ LiveCapture::Step LiveCapture::add(const PairedFrame& frame)
   if (!stylusToMarker)
   {
     stillness_.addInvalid(frame.image.timeSec);
+    if (std::abs(frame.image.timeSec - lastSeenSec_) > LongestHiddenSec)
+    {
+      stillness_.finish();
+    }
     return step(Status::NoPose, problem);
   }
+  lastSeenSec_ = frame.image.timeSec;
   stillness_.add(frame.image.timeSec, *stylusToMarker);
   const Eigen::Vector3d tip_Marker = *stylusToMarker * tip_Stylus_;
   if (isTaken(tip_Marker))

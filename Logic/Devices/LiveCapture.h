@@ -75,6 +75,7 @@ private:
   io::Session& session_;
   LiveCaptureOptions options_;
   StillnessDetector stillness_;
+  double lastSeenSec_ = -1e300;
   std::map<int, Eigen::Vector3d> places_Marker_;  ///< by sample
 };
 

@@ -16,7 +16,7 @@ using simulation::SimulatedRoom;
 using Status = LiveCapture::Step::Status;
 
 /// The room's stream through pairing, as a server would deliver it: poses at 100 Hz, 10 frames a second.
-std::vector<PairedFrame> framesOf(const SimulatedRoom& room, double seconds, double latencySec)
+std::vector<PairedFrame> framesOf(const SimulatedRoom& room, double seconds, double latencySec, int posesAFrame = 10)
 {
   FramePairingOptions options;
   options.latencySec = latencySec;
@@ -32,7 +32,7 @@ std::vector<PairedFrame> framesOf(const SimulatedRoom& room, double seconds, dou
       tracked.transform = pose.transform;
       pairing.add({ pose.name, 100 + timeSec, 0, {}, tracked });
     }
-    if (i % 10 == 0)
+    if (i % posesAFrame == 0)
     {
       VideoFrame video;
       video.image = room.picture(timeSec);
@@ -134,6 +134,20 @@ TEST(LiveCapture, SessionThatIsContinued_KnowsItsPlaces)
     }
     EXPECT_EQ(accepted, round == 0 ? 5 : 0);
   }
+}
+
+/// Software rendering, a slow network: three pictures a second are enough for balls that are held still.
+TEST(LiveCapture, SlowVideo_IsCapturedToo)
+{
+  const TemporaryFolder folder;
+  io::Session session = io::Session::create(folder.path() / "s");
+  const SimulatedRoom room(fivePlaces());
+  LiveCapture capture(room.options().camera, room.options().tip_Stylus, session);
+  for (const PairedFrame& frame : framesOf(room, 14, 0, 33))
+  {
+    (void)capture.add(frame);
+  }
+  EXPECT_EQ(session.samples().size(), 5U);
 }
 
 TEST(LiveCapture, SampleThatWasSetAside_LeavesItsPlaceToAnother)
