@@ -76,7 +76,9 @@ void StillnessDetector::push(const Sample& sample)
     return;
   }
   // A little more than the duration, so that a window that reaches back over all of it can be told from a stream that just began.
-  const std::size_t old = this->windowBegin(sample.timeSec - 1.5 * options_.minimumDurationSec);
+  // One sample from before that stays: of a slow stream it may be the only one that reaches back.
+  const std::size_t within = this->windowBegin(sample.timeSec - 1.5 * options_.minimumDurationSec);
+  const std::size_t old = within > 0 ? within - 1 : 0;
   window_.erase(window_.begin(), window_.begin() + std::ptrdiff_t(std::max(old, std::size_t(window_.size() == WindowCapacity))));
   window_.push_back(sample);
 }
