@@ -63,7 +63,7 @@ void StylusPage::showProgress()
   ui_->errorLabel->setText(error);
   ui_->dome->setErrorText(isKnown ? tr("tip error %1").arg(withUnit(state.predictedTipErrorMm, 2, tr("mm"))) : QString(),
     state.isEnough ? Level::Good : Level::Info);
-  ui_->posesLabel->setText(tr("%1 kept of %2; not seen %3, disagreeing %4")
+  ui_->posesLabel->setText(tr("%1 of %2 kept, %3 hidden, %4 disagree")
                              .arg(state.counts.kept)
                              .arg(state.counts.total())
                              .arg(state.counts.invalid)

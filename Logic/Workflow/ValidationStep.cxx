@@ -20,10 +20,12 @@ std::string describe(const Summary& errorPx, std::size_t frameCount)
     : errorPx.mean < 3                   ? "fair"
     : errorPx.mean < 20                  ? "poor"
                                          : "the calibration does not hold here";
+  constexpr int EnoughFrames = 5;
+  const bool isFew = errorPx.count < EnoughFrames;
   char text[200];
-  std::snprintf(text, sizeof(text), "%s: projection error %.2f px mean, %.2f px RMS, %.2f px at most, over %d of %zu frames",
-    verdict, errorPx.mean, errorPx.rms, errorPx.maximum, errorPx.count, frameCount);
-  return text;
+  std::snprintf(text, sizeof(text), "%s%s: projection error %.2f px mean, %.2f px RMS, %.2f px at most, over %d of %zu frames",
+    verdict, isFew ? " so far" : "", errorPx.mean, errorPx.rms, errorPx.maximum, errorPx.count, frameCount);
+  return text + std::string(isFew ? "; few to judge by, " + std::to_string(EnoughFrames) + " or more are wanted" : "");
 }
 
 }  // namespace

@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <QApplication>
 #include <QTimer>
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkCommand.h>
+#include <vtkRenderWindow.h>
+#include <vtkWeakPointer.h>
 
 #include <algorithm>
 #include <atomic>
@@ -10,11 +15,16 @@
 #include <csignal>
 #include <cstdlib>
 #include <execinfo.h>
+#include <set>
 #include <thread>
 #include <unistd.h>
+#include <utility>
+#include <vector>
 
 /// How long the event loop of the user interface was stuck at the longest: a timer in the loop beats every 2 ms, and a thread beside it
-/// watches how long a beat stays away. Time in which the machine did not let the watching thread run either does not count.
+/// watches how long a beat stays away. Time in which the machine did not let the watching thread run either does not count. What VTK's views
+/// take to draw is counted for itself: without a graphics card, as in the tests, each first use of a shader is compiled to machine code in
+/// the thread that draws, which takes tenths of a second and says nothing of this program.
 ///
 /// With HANDEYE_STALL_STACKS set, what holds the loop for more than 100 ms is written to the standard error as a stack.
 class EventLoopWatch
@@ -37,15 +47,41 @@ public:
   {
     stop_ = true;
     watcher_.join();
+    for (const auto& [window, tag] : observers_)
+    {
+      if (window)
+      {
+        window->RemoveObserver(tag);
+      }
+    }
   }
   EventLoopWatch(const EventLoopWatch&) = delete;
   EventLoopWatch& operator=(const EventLoopWatch&) = delete;
 
-  double longestMs() const { return longestMs_; }
-  /// The longest since the last call.
+  /// The longest since the last call, drawing left out.
   double takeLongestMs() { return longestMs_.exchange(0); }
+  /// The longest time of drawing in one go since the last call.
+  double takeLongestDrawingMs() { return longestDrawingMs_.exchange(0); }
+
+  /// Knows all views that there are now.
+  void watchDrawing()
+  {
+    for (QWidget* const widget : QApplication::allWidgets())
+    {
+      auto* const view = qobject_cast<QVTKOpenGLNativeWidget*>(widget);
+      if (view && views_.insert(view).second)
+      {
+        vtkRenderWindow* const window = view->renderWindow();
+        observers_.push_back({ window, window->AddObserver(vtkCommand::StartEvent, this, &EventLoopWatch::beginDrawing) });
+        observers_.push_back({ window, window->AddObserver(vtkCommand::EndEvent, this, &EventLoopWatch::endDrawing) });
+      }
+    }
+  }
 
 private:
+  void beginDrawing() { isDrawing_ = true; }
+  void endDrawing() { isDrawing_ = false; }
+
   static void writeStack(int)
   {
     void* frames[60];
@@ -60,7 +96,7 @@ private:
     using Clock = std::chrono::steady_clock;
     constexpr double stepMs = 2;
     long seen = -1;
-    double stuckMs = 0;
+    double stuckMs = 0, drawingMs = 0;
     bool isWritten = false;
     auto before = Clock::now();
     while (!stop_)
@@ -70,8 +106,12 @@ private:
       const double passedMs = std::chrono::duration<double, std::milli>(now - before).count();
       before = now;
       const long beats = beats_;
-      stuckMs = beats == seen ? stuckMs + std::min(passedMs, 2 * stepMs) : 0;
+      const double stepOfLoopMs = std::min(passedMs, 2 * stepMs);
+      const bool isDrawing = isDrawing_;
+      drawingMs = isDrawing ? drawingMs + stepOfLoopMs : 0;
+      stuckMs = beats == seen ? stuckMs + (isDrawing ? 0 : stepOfLoopMs) : 0;
       seen = beats;
+      longestDrawingMs_ = std::max(longestDrawingMs_.load(), drawingMs);
       if (stuckMs < 100)
       {
         isWritten = false;
@@ -88,7 +128,10 @@ private:
   QTimer beat_;
   std::atomic<long> beats_{ 0 };
   std::atomic<bool> stop_{ false };
-  std::atomic<double> longestMs_{ 0 };
+  std::atomic<bool> isDrawing_{ false };
+  std::set<QWidget*> views_;
+  std::vector<std::pair<vtkWeakPointer<vtkRenderWindow>, unsigned long>> observers_;
+  std::atomic<double> longestMs_{ 0 }, longestDrawingMs_{ 0 };
   pthread_t watched_{};
   bool writesStacks_ = false;
   std::thread watcher_;
