@@ -162,15 +162,25 @@ void HandEyeCalibrationPanel::Private::connectAll()
   connect(video.get(), &handeye::VideoView::keyPressed, &q,
     [this](int key, Qt::KeyboardModifiers modifiers)
     {
+      // Which keys + and > are on, the keyboard decides.
+      if (!(modifiers & ~(Qt::ShiftModifier | Qt::KeypadModifier)) && presenter->overlay().handleKey(key))
+      {
+        return;
+      }
       if (modifiers == Qt::NoModifier)
       {
         currentPage().keyInVideo(key);
       }
     });
   auto* overlay = static_cast<handeye::OverlayPage*>(pages[std::size_t(WizardStep::Overlay)]);
-  connect(
-    overlay, &handeye::OverlayPage::opacityChanged, presenter, [this, overlay] { presenter->setOpacity(overlay->opacity()); });
-  connect(presenter, &handeye::VideoPresenter::overlayProblemChanged, overlay, &handeye::OverlayPage::setOverlayProblem);
+  handeye::OverlayPresenter* drawn = &presenter->overlay();
+  connect(overlay, &handeye::OverlayPage::opacityChanged, drawn, &handeye::OverlayPresenter::setOpacity);
+  connect(overlay, &handeye::OverlayPage::lookChanged, drawn, &handeye::OverlayPresenter::setLook);
+  connect(overlay, &handeye::OverlayPage::smoothingChanged, drawn, &handeye::OverlayPresenter::setSmoothing);
+  connect(overlay, &handeye::OverlayPage::snapshotWanted, drawn, &handeye::OverlayPresenter::takeSnapshot);
+  connect(drawn, &handeye::OverlayPresenter::stateChanged, overlay, &handeye::OverlayPage::setState);
+  connect(drawn, &handeye::OverlayPresenter::lookChanged, overlay,
+    [drawn, overlay] { overlay->setLook(drawn->look(), drawn->opacity()); });
 }
 
 void HandEyeCalibrationPanel::Private::showProgress(int done, int total, const QString& what)

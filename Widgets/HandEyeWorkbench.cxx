@@ -276,7 +276,7 @@ void HandEyeWorkbench::loadStylus(const QString& path)
     [this, path]
     {
       const std::filesystem::path file = path.toStdString();
-      Stylus stylus{ readStylusTip(file), readStylusTipCovariance(file), 0, {}, readStylus(file) };
+      Stylus stylus{ readStylusTip(file), readStylusTipCovariance(file), 0, {}, readStylus(file), readStylusTipFrame(file) };
       const nlohmann::json rms = stylus.document.value("rmsMm", nlohmann::json());
       stylus.rmsMm = rms.is_number() ? rms.get<double>() : 0;
       stylus.message = QString::fromStdString(stylus.document.value("message", std::string()));

@@ -9,12 +9,14 @@
 #include "LandmarkRegistration.h"
 #include "LatencyTask.h"
 #include "LivePipeline.h"
+#include "OverlayPose.h"
 #include "PivotTask.h"
 #include "ValidationStep.h"
 
 #include <nlohmann/json.hpp>
 
 #include <Eigen/Core>
+#include <QImage>
 #include <QObject>
 #include <QString>
 #include <QTimer>
@@ -68,6 +70,8 @@ public:
     double rmsMm = 0;
     QString message;
     nlohmann::json document;
+    /// With the direction of the shaft, where `handeye spin` found it. p_Stylus = stylusTipToStylus * p_StylusTip
+    std::optional<Eigen::Isometry3d> stylusTipToStylus = std::nullopt;
   };
   struct Ball
   {
@@ -145,8 +149,14 @@ public:
   void saveRegistration(const QString& path);
   const std::optional<Eigen::Isometry3d>& modelToPhantom() const { return modelToPhantom_; }
   const std::optional<LandmarkRegistrationResult>& registration() const { return registration_; }
-  /// Where the model is in a frame, or why that is not known. p_Camera = modelToCamera * p_Model
-  std::optional<Eigen::Isometry3d> modelToCamera(const devices::PairedFrame& frame, QString& reason) const;
+  /// What places the model, or the reason why there is nothing yet.
+  std::optional<OverlayTransforms> overlayTransforms(QString& reason) const;
+  /// Where the stylus is in a frame; nothing if that is not known. p_Camera = stylusTipToCamera * p_StylusTip
+  std::optional<Eigen::Isometry3d> stylusTipToCamera(const devices::PairedFrame& frame) const;
+  /// Of the calibration (rotation vector rad, translation mm; `Camera` frame); nothing if it is not known.
+  std::optional<Eigen::Matrix<double, 6, 6>> calibrationCovariance() const;
+  /// Into the session's folder, as PNG; an empty picture is refused.
+  void saveSnapshot(const QImage& picture);
 
   // What a page may go on with
   /// Why a step's result is not usable, a sentence; empty if it is.
@@ -172,6 +182,7 @@ signals:
   void modelChanged();
   void registrationChanged();
   void reportWritten(const QString& path);
+  void snapshotSaved(const QString& path);
   /// Something asked for was refused, in words; of which step.
   void refused(handeye::WizardStep step, const QString& message);
   /// For the log: what happened.

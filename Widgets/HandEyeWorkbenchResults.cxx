@@ -148,12 +148,14 @@ void HandEyeWorkbench::loadCalibration(const QString& path)
       const std::filesystem::path file = path.toStdString();
       const StoredCalibration stored = readCalibration(file);
       nlohmann::json document = readDocument(file);
+      const auto covariance = readCalibrationCovariance(file);
       tell(
-        [this, stored, document, path]
+        [this, stored, document, covariance, path]
         {
           CalibrationStepResult loaded{ {}, stored.camera, {}, stored.tools, stored.tip_Stylus, stored.ballRadiusMm, {}, {} };
           loaded.calibration.status = HandEyeCalibrationResult::Status::Ok;
           loaded.calibration.markerToCamera = stored.markerToCamera;
+          loaded.calibration.covariance = covariance.value_or(Eigen::Matrix<double, 6, 6>::Zero());
           loaded.calibration.message = tr("loaded from %1").arg(path).toStdString();
           isCalibrationLoaded_ = true;
           calibration_ = loaded;
@@ -299,33 +301,6 @@ void HandEyeWorkbench::saveRegistration(const QString& path)
   {
     beside(WizardStep::Overlay, [path, document = phantomJson(*registration_)] { writeJson(path.toStdString(), document); });
   }
-}
-
-std::optional<Eigen::Isometry3d> HandEyeWorkbench::modelToCamera(const devices::PairedFrame& frame, QString& reason) const
-{
-  if (!calibration_ || !calibration_->isUsable())
-  {
-    reason = tr("The camera is not calibrated yet.");
-    return std::nullopt;
-  }
-  if (!modelToPhantom_)
-  {
-    reason = tr("The phantom is not registered yet: touch its landmarks, or load a registration.");
-    return std::nullopt;
-  }
-  const DeviceSetup& setup = devices_->setup();
-  for (const QString& name : { setup.markerToTracker, setup.phantomToTracker })
-  {
-    const auto pose = frame.poses.find(name.toStdString());
-    if (pose == frame.poses.end() || !pose->second.isUsable())
-    {
-      reason = name + QStringLiteral(": ") +
-        (pose == frame.poses.end() ? tr("no pose was received") : QString::fromStdString(pose->second.message));
-      return std::nullopt;
-    }
-  }
-  return toModelToCamera({ calibration_->calibration.markerToCamera, *modelToPhantom_ },
-    frame.poses.at(setup.markerToTracker.toStdString()).transform, frame.poses.at(setup.phantomToTracker.toStdString()).transform);
 }
 
 }  // namespace handeye

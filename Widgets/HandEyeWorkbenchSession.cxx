@@ -165,7 +165,7 @@ void HandEyeWorkbench::restoreFiles(const std::map<std::string, json>& documents
       [this, stylus, path = std::filesystem::path(documentPath(QStringLiteral("stylus")).toStdString())]
       {
         const Stylus restored{ readStylusTip(path), readStylusTipCovariance(path), number(stylus, "rmsMm", 0),
-          text(stylus, "message", {}), stylus };
+          text(stylus, "message", {}), stylus, readStylusTipFrame(path) };
         tell([this, restored] { setStylus(restored, false); });
       });
   }

@@ -7,6 +7,7 @@
 
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QSignalBlocker>
 
 #include <algorithm>
 
@@ -34,7 +35,7 @@ OverlayPage::OverlayPage(HandEyeWorkbench& workbench, QWidget* parent)
         workbench_.loadModel(path);
       }
     });
-  connect(ui_->opacitySlider, &QSlider::valueChanged, this, &OverlayPage::opacityChanged);
+  connectLook();
   connect(ui_->landmarks, &LandmarkPanel::touchRequested, this, &OverlayPage::takeTip);
   connect(ui_->landmarks, &LandmarkPanel::currentLandmarkChanged, this, &OverlayPage::playRoom);
   connect(ui_->landmarks, &LandmarkPanel::pairsChanged, this,
@@ -79,14 +80,76 @@ void OverlayPage::playRoom()
   }
 }
 
-double OverlayPage::opacity() const
+void OverlayPage::connectLook()
 {
-  return ui_->opacitySlider->value() / 100.0;
+  connect(ui_->opacitySlider, &QSlider::valueChanged, this, [this](int percent) { emit opacityChanged(percent / 100.0); });
+  connect(ui_->lensBox, QOverload<int>::of(&QComboBox::activated), this,
+    [this](int way)
+    {
+      look_.undistorted = way == 1;
+      emit lookChanged(look_);
+    });
+  for (QCheckBox* box : ui_->lookGroup->findChildren<QCheckBox*>())
+  {
+    const std::string name = box->property("look").toString().toStdString();
+    if (!name.empty())
+    {
+      connect(box, &QCheckBox::clicked, this,
+        [this, name](bool isOn)
+        {
+          *findOverlaySwitch(look_, name) = isOn;
+          emit lookChanged(look_);
+        });
+    }
+  }
+  connect(ui_->smoothBox, &QCheckBox::toggled, this, &OverlayPage::smoothingChanged);
+  connect(ui_->snapshotButton, &QPushButton::clicked, this, &OverlayPage::snapshotWanted);
+  connect(&workbench_, &HandEyeWorkbench::snapshotSaved, this,
+    [this](const QString& path)
+    {
+      ui_->snapshotLabel->setText(tr("Stored: snapshots/%1").arg(QFileInfo(path).fileName()));
+      ui_->snapshotLabel->setToolTip(path);
+    });
+  QString rows;
+  for (const OverlayKey& key : overlayKeys())
+  {
+    rows += QStringLiteral("<tr><td><b>%1</b>&nbsp;</td><td>%2</td></tr>")
+              .arg(QString(QLatin1Char(key.key)).toHtmlEscaped(), QString::fromStdString(key.help).toHtmlEscaped());
+  }
+  ui_->keysLabel->setToolTip(QStringLiteral("<table>%1</table>").arg(rows));
+  showLook();
 }
 
-void OverlayPage::setOverlayProblem(const QString& problem)
+void OverlayPage::showLook()
 {
-  ui_->overlayLabel->setText(problem.isEmpty() ? tr("The model is drawn where the calibration puts it.") : problem);
+  ui_->lensBox->setCurrentIndex(look_.undistorted ? 1 : 0);
+  for (QCheckBox* box : ui_->lookGroup->findChildren<QCheckBox*>())
+  {
+    if (const bool* isOn = findOverlaySwitch(look_, box->property("look").toString().toStdString()))
+    {
+      box->setChecked(*isOn);
+    }
+  }
+}
+
+void OverlayPage::setLook(const OverlayLook& look, double opacity)
+{
+  look_ = look;
+  showLook();
+  const QSignalBlocker blocker(ui_->opacitySlider);
+  ui_->opacitySlider->setValue(qRound(100 * opacity));
+}
+
+void OverlayPage::setState(const OverlayState& state)
+{
+  ui_->overlayLabel->setText(state.problem.isEmpty() ? tr("The model is drawn where the calibration puts it.") : state.problem);
+  ui_->haloBox->setEnabled(state.hasHalo);
+  const QString delay = ui_->smoothBox->isChecked() ? tr("delay %1 ms").arg(1000 * state.delaySec, 0, 'f', 0) : tr("no delay");
+  ui_->delayLabel->setText(delay);
+  ui_->haloLabel->setText(state.predictedErrorPx ? tr("Halo: predicted error %1 px").arg(*state.predictedErrorPx, 0, 'f', 1)
+      : state.hasHalo                            ? QString()
+                                                 : tr("No halo: the error of this calibration is not known."));
+  ui_->haloLabel->setVisible(!ui_->haloLabel->text().isEmpty());
 }
 
 void OverlayPage::followTip()

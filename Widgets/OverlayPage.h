@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "OverlayPresenter.h"
 #include "TouchTask.h"
 #include "WizardPage.h"
 
@@ -27,22 +28,27 @@ public:
   void enter() override;
   void refresh() override;
 
-  /// 0 to 1.
-  double opacity() const;
-  /// Why the model is not drawn, a sentence; empty if it is.
-  void setOverlayProblem(const QString& problem);
+  /// What the controls show, after a key changed it. @param opacity 0 to 1
+  void setLook(const OverlayLook& look, double opacity);
+  void setState(const OverlayState& state);
 
 signals:
-  void opacityChanged();
+  void opacityChanged(double opacity);
+  void lookChanged(const handeye::OverlayLook& look);
+  void smoothingChanged(bool smooth);
+  void snapshotWanted();
 
 private:
   void playRoom();
   void followTip();
   void takeTip();
   void showRegistration();
+  void connectLook();
+  void showLook();
 
   std::unique_ptr<Ui::OverlayPage> ui_;
   TouchTask touch_;
+  OverlayLook look_;
 };
 
 }  // namespace handeye

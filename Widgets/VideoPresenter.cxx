@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VideoPresenter.h"
 
-#include "EigenVtk.h"
 #include "SphereCone.h"
 #include "vtkHandEyeOverlayPipeline.h"
 
 #include <QTimer>
-#include <vtkMatrix4x4.h>
 
 #include <cmath>
 
@@ -46,6 +44,7 @@ VideoPresenter::VideoPresenter(HandEyeWorkbench& workbench, VideoView& view, QOb
   : QObject(parent)
   , workbench_(workbench)
   , view_(view)
+  , overlay_(new OverlayPresenter(workbench, view, this))
 {
   connect(&workbench_.live(), &LivePipeline::shown, this, &VideoPresenter::showFrame);
   connect(&workbench_, &HandEyeWorkbench::cameraChanged, this, &VideoPresenter::setLens);
@@ -58,16 +57,9 @@ VideoPresenter::VideoPresenter(HandEyeWorkbench& workbench, VideoView& view, QOb
       showFrame();
       showGhost();
     });
-  connect(&workbench_, &HandEyeWorkbench::modelChanged, this,
-    [this]
-    {
-      view_.pipeline()->SetModel(workbench_.model());
-      view_.requestRender();
-    });
   connect(&workbench_.capture(), &CaptureTask::accepted, &view_, &VideoView::flash);
   connect(&workbench_.validationCapture(), &CaptureTask::accepted, &view_, &VideoView::flash);
   view_.setPlaceholderText(tr("No video. Connect devices on the page Devices."));
-  view_.pipeline()->SetModelVisible(false);
   setLens();
 }
 
@@ -79,13 +71,6 @@ void VideoPresenter::setLens()
     hasLens_ = true;
     view_.requestRender();
   }
-}
-
-void VideoPresenter::setOpacity(double opacity)
-{
-  opacity_ = opacity;
-  view_.pipeline()->SetModelOpacity(opacity);
-  view_.requestRender();
 }
 
 void VideoPresenter::showFrame()
@@ -115,7 +100,7 @@ void VideoPresenter::showFrame()
   }
   view_.setBanner(shown->problem, Level::Error);
   showBall(*shown);
-  showModel(*shown);
+  overlay_->show(*shown);
 }
 
 void VideoPresenter::showBall(const LiveView& shown)
@@ -158,26 +143,6 @@ void VideoPresenter::showGhost()
     outlineOf(calibration->guidance->ball_Camera, workbench_.ball().radiusMm, workbench_.camera()->file.camera);
   ghost.hint = tr("next: %1 mm away").arg(calibration->guidance->ball_Camera.norm(), 0, 'f', 0);
   view_.setGhostBall(ghost);
-}
-
-void VideoPresenter::showModel(const LiveView& shown)
-{
-  const bool isWanted = (workbench_.step() == WizardStep::Overlay || workbench_.step() == WizardStep::Finish) && workbench_.model();
-  if (!isWanted)
-  {
-    view_.pipeline()->SetModelVisible(false);
-    return;
-  }
-  QString reason;
-  const std::optional<Eigen::Isometry3d> modelToCamera = workbench_.modelToCamera(shown.frame, reason);
-  if (modelToCamera)
-  {
-    view_.pipeline()->SetModelToCamera(toVtk(*modelToCamera));
-    view_.pipeline()->SetModelOpacity(opacity_);
-    reason = QString::fromStdString(view_.pipeline()->GetProblem());
-  }
-  view_.pipeline()->SetModelVisible(modelToCamera.has_value());
-  emit overlayProblemChanged(reason);
 }
 
 }  // namespace handeye

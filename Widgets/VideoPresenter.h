@@ -3,6 +3,7 @@
 #pragma once
 
 #include "HandEyeWorkbench.h"
+#include "OverlayPresenter.h"
 #include "VideoView.h"
 
 #include <QElapsedTimer>
@@ -20,22 +21,17 @@ class VideoPresenter : public QObject
 public:
   VideoPresenter(HandEyeWorkbench& workbench, VideoView& view, QObject* parent = nullptr);
 
-  void setOpacity(double opacity);
-
-signals:
-  /// Why the model is not drawn, a sentence; empty if it is.
-  void overlayProblemChanged(const QString& problem);
+  OverlayPresenter& overlay() { return *overlay_; }
 
 private:
   void showFrame();
   void showBall(const LiveView& shown);
   void showGhost();
-  void showModel(const LiveView& shown);
   void setLens();
 
   HandEyeWorkbench& workbench_;
   VideoView& view_;
-  double opacity_ = 0.65;
+  OverlayPresenter* overlay_;
   QElapsedTimer sinceShown_;
   qint64 costMs_ = 0;  ///< of the last frame, drawing included
   bool hasLens_ = false;
