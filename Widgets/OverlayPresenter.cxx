@@ -142,6 +142,7 @@ void OverlayPresenter::show(const LiveView& shown)
   feed(*transforms);
   if (!live_)
   {
+    hide({});
     return;
   }
   vtkHandEyeOverlayPipeline* pipeline = view_.pipeline();
