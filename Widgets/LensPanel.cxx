@@ -172,9 +172,10 @@ void LensPanel::openRecording()
 void LensPanel::showProgress()
 {
   const LensTask::State& state = workbench_.lens().state();
+  ui_->calibrateButton->setEnabled(workbench_.lens().isWorking() ? !workbench_.lens().isCancelling() : state.pictures > 0);
   ui_->coverageView->setState(state);
   ui_->countLabel->setText(tr("%1, %2 % of the image covered; the board was seen in %3 of %4 pictures")
-                             .arg(counted(state.views, tr("1 view"), tr("%1 views").arg(state.views)))
+                             .arg(counted(state.views, tr("1 view"), tr("%1 views")))
                              .arg(100 * state.coverageShare, 0, 'f', 0)
                              .arg(state.withBoard)
                              .arg(state.pictures));
@@ -209,7 +210,6 @@ void LensPanel::refresh()
   ui_->recordingButton->setEnabled(isIdle && hasBoard);
   ui_->startButton->setEnabled(hasBoard && !lens.isWorking() && workbench_.devices().isConnected());
   ui_->startButton->setText(lens.isCollecting() ? tr("&Stop") : tr("&Start"));
-  ui_->calibrateButton->setEnabled(lens.isWorking() ? !lens.isCancelling() : lens.state().pictures > 0);
   ui_->calibrateButton->setText(!lens.isWorking() ? tr("&Calibrate") : lens.isCancelling() ? tr("Stopping…") : tr("&Cancel"));
   ui_->clearButton->setEnabled(isIdle && lens.state().pictures > 0);
   ui_->progressBar->setVisible(lens.isWorking());

@@ -265,17 +265,13 @@ void LensTaskTest::page_CalibratesAndUsesTheLens()
 
   Scene scene(Charuco);
   task.start(scene.board_);
-  for (int place = 0; place < 40 && task.state().views < 18; ++place)
+  QVERIFY(task.isCollecting());
+  for (int place = 0; place < 40 && task.state().views < 18 && !QTest::currentTestFailed(); ++place)
   {
     const Eigen::Isometry3d boardToCamera = scene.nextPose();
     for (int i = 0; i < 3; ++i)
     {
       show(task, [&] { workbench.live().take(frameOf(scene.take(boardToCamera))); });
-    }
-    if (place == 2)
-    {
-      driver.click(driver.onPage("startButton"));  // disabled: nothing happens
-      QVERIFY(task.isCollecting());
     }
   }
   QVERIFY(driver.onPage<QLabel>("countLabel")->text().contains(QStringLiteral("18 views")));
