@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CameraPage.h"
 
+#include "LensPanel.h"
 #include "ui_CameraPage.h"
 
 #include <QFileDialog>
@@ -14,6 +15,9 @@ CameraPage::CameraPage(HandEyeWorkbench& workbench, QWidget* parent)
   , ui_(std::make_unique<Ui::CameraPage>())
 {
   ui_->setupUi(this);
+  lensPanel_ = new LensPanel(workbench, ui_->lensCalibrationPlace);
+  ui_->lensCalibrationPlaceLayout->setContentsMargins(0, 0, 0, 0);
+  ui_->lensCalibrationPlaceLayout->addWidget(lensPanel_);
   connect(ui_->loadButton, &QPushButton::clicked, this, &CameraPage::load);
   connect(ui_->roomCameraButton, &QPushButton::clicked, this,
     [this]
@@ -28,9 +32,9 @@ CameraPage::CameraPage(HandEyeWorkbench& workbench, QWidget* parent)
 
 CameraPage::~CameraPage() = default;
 
-QWidget* CameraPage::lensCalibrationPlace() const
+void CameraPage::leave()
 {
-  return ui_->lensCalibrationPlace;
+  workbench_.lens().stop();
 }
 
 void CameraPage::load()
@@ -45,6 +49,7 @@ void CameraPage::load()
 
 void CameraPage::refresh()
 {
+  lensPanel_->refresh();
   const std::optional<HandEyeWorkbench::Camera>& camera = workbench_.camera();
   ui_->roomCameraButton->setVisible(workbench_.devices().room() != nullptr);
   ui_->originLabel->setText(camera ? tr("From %1.").arg(camera->origin) : tr("The lens is not known yet."));

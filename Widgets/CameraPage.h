@@ -14,7 +14,9 @@ class CameraPage;
 namespace handeye
 {
 
-/// The camera's lens: from a file of any kind, or the simulated room's own.
+class LensPanel;
+
+/// The camera's lens: from a file of any kind, the simulated room's own, or calibrated with a board.
 class CameraPage : public WizardPage
 {
   Q_OBJECT
@@ -24,13 +26,13 @@ public:
   ~CameraPage() override;
 
   void refresh() override;
-  /// Where a calibration of the lens is put in; hidden while there is nothing in it.
-  QWidget* lensCalibrationPlace() const;
+  void leave() override;
 
 private:
   void load();
 
   std::unique_ptr<Ui::CameraPage> ui_;
+  LensPanel* lensPanel_;
 };
 
 }  // namespace handeye

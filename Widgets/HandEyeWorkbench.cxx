@@ -3,6 +3,7 @@
 #include "HandEyeWorkbench.h"
 
 #include "BallColorLearning.h"
+#include "CameraFileWriter.h"
 #include "JsonEigen.h"
 #include "LandmarkFiles.h"
 #include "ResultFiles.h"
@@ -37,6 +38,7 @@ HandEyeWorkbench::HandEyeWorkbench(vtkSlicerHandEyeCalibrationLogic* logic, QObj
       [this](const char* message) { tell([this, text = QString::fromUtf8(message)] { emit happened(text); }); }))
   , devices_(new DeviceHub(this))
   , live_(new LivePipeline(*work_, this))
+  , lens_(new LensTask(*work_, this))
   , pivot_(new PivotTask(*work_, this))
   , latency_(new LatencyTask(*work_, this))
   , capture_(new CaptureTask(*work_, this))
@@ -68,6 +70,7 @@ void HandEyeWorkbench::connectTasks()
   live_->addListener(
     [this](const devices::PairedFrame& frame, const std::optional<BallDetection>& ball)
     {
+      lens_->onFrame(frame);
       latency_->onFrame(frame, ball);
       capture_->onFrame(frame);
       validationCapture_->onFrame(frame);
@@ -84,6 +87,8 @@ void HandEyeWorkbench::connectTasks()
     });
   connect(devices_, &DeviceHub::connectionChanged, this, &HandEyeWorkbench::stateChanged);
   connect(devices_, &DeviceHub::streamsChanged, this, &HandEyeWorkbench::stateChanged);
+  connect(lens_, &LensTask::changed, this, &HandEyeWorkbench::stateChanged);
+  connect(lens_, &LensTask::refused, this, [this](const QString& message) { refuse(WizardStep::Camera, message); });
   connect(pivot_, &PivotTask::calibrated, this,
     [this](const PivotStepResult& result)
     {
@@ -208,6 +213,10 @@ void HandEyeWorkbench::enterStep(WizardStep step)
   {
     validationCapture_->setHandsFree(false);
   }
+  if (step != WizardStep::Camera)
+  {
+    lens_->stop();
+  }
   if (step != WizardStep::Stylus)
   {
     pivot_->cancel();
@@ -268,6 +277,30 @@ void HandEyeWorkbench::setCamera(const io::CameraFile& file, const QString& orig
   emit cameraChanged();
   emit happened(tr("camera: %1").arg(origin));
   updateInputs();
+}
+
+void HandEyeWorkbench::useCalibratedLens()
+{
+  const std::optional<LensTask::Result>& result = lens_->result();
+  if (!result || !result->calibration.isUsable())
+  {
+    refuse(WizardStep::Camera, tr("No lens has been calibrated yet."));
+    return;
+  }
+  const QString board = QString::fromStdString(toString(result->board));
+  const io::CameraFile file{ *result->calibration.camera, std::nullopt, "OpenCV", {} };
+  setCamera(file, tr("the calibration with the board %1").arg(board));
+  if (capture_->isOpen())
+  {
+    beside(WizardStep::Camera,
+      [file, path = sessionFolder() + QStringLiteral("/camera.yml"), rmsPx = result->calibration.rmsPx]
+      {
+        std::vector<std::string> warnings;
+        io::CameraFileExtras extras;
+        extras.reprojectionErrorPx = rmsPx;
+        io::writeCameraFile(path.toStdString(), file, io::CameraFormat::OpenCV, warnings, extras);
+      });
+  }
 }
 
 void HandEyeWorkbench::loadStylus(const QString& path)

@@ -8,6 +8,7 @@
 #include "DeviceHub.h"
 #include "LandmarkRegistration.h"
 #include "LatencyTask.h"
+#include "LensTask.h"
 #include "LivePipeline.h"
 #include "OverlayPose.h"
 #include "PivotTask.h"
@@ -89,6 +90,7 @@ public:
   DeviceHub& devices() { return *devices_; }
   LivePipeline& live() { return *live_; }
   PivotTask& pivot() { return *pivot_; }
+  LensTask& lens() { return *lens_; }
   LatencyTask& latency() { return *latency_; }
   CaptureTask& capture() { return *capture_; }
   CaptureTask& validationCapture() { return *validationCapture_; }
@@ -112,6 +114,8 @@ public:
   // Camera, stylus, ball
   void loadCamera(const QString& path);
   void setCamera(const io::CameraFile& file, const QString& origin);
+  /// The lens that was calibrated last becomes the camera, also as camera.yml (OpenCV) in the session's folder.
+  void useCalibratedLens();
   const std::optional<Camera>& camera() const { return camera_; }
   void loadStylus(const QString& path);
   const std::optional<Stylus>& stylus() const { return stylus_; }
@@ -214,6 +218,7 @@ private:
   std::unique_ptr<WorkThread> work_;
   DeviceHub* devices_;
   LivePipeline* live_;
+  LensTask* lens_;
   PivotTask* pivot_;
   LatencyTask* latency_;
   CaptureTask* capture_;

@@ -46,7 +46,7 @@ QString HandEyeWorkbench::problemOf(WizardStep step) const
     case WizardStep::Devices:
       return devices_->missing(true);
     case WizardStep::Camera:
-      return camera_ ? QString() : tr("Load a camera file, or choose a source that knows its camera.");
+      return camera_ ? QString() : tr("Load a camera file, or calibrate the lens with a board.");
     case WizardStep::Stylus:
       return pivot_->isCollecting() ? tr("The pivoting is still under way.")
         : stylus_                   ? QString()
