@@ -3,23 +3,32 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # Installs what is missing and builds. With a display it opens NavigationDesktop with the module and a simulated operating room; without
-# one, or with --headless, it runs the main job on the demo capture: pivot, calibrate, validate, register, overlay. Other arguments go to
-# NavigationDesktop: ./start.sh --help says which.
+# one, or with --headless, it runs the main job on the demo capture: pivot, calibrate, validate, register, overlay. Both programs are
+# built in either case. Other arguments go to NavigationDesktop.
 set -euo pipefail
 cd "$(dirname "$0")"
 # shellcheck source=Utilities/set_up.sh
 . Utilities/set_up.sh
 
 headless=
+case ${1:-} in
+  -h | --help)
+    printf '%s\n' "./start.sh               builds; opens the desktop with a simulated room, or runs the demo where there is no display" \
+      "./start.sh --headless    builds; runs the demo, never a window" \
+      "./start.sh ARGUMENTS     builds; opens the desktop with them (build/release/bin/NavigationDesktop --help says which)"
+    exit 0
+    ;;
+esac
 if [ "${1:-}" = --headless ]; then
   headless=yes
   shift
+  [ $# -eq 0 ] || fail "--headless takes no further arguments: '$*'"
 elif [ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}${QT_QPA_PLATFORM:-}" ]; then
   headless=yes
 fi
 
 if [ -z "$headless" ]; then
-  set_up NavigationDesktop -DHANDEYE_WARNINGS_AS_ERRORS=
+  set_up 'handeye NavigationDesktop' -DHANDEYE_WARNINGS_AS_ERRORS=
   desktop=$build_dir/bin/NavigationDesktop
   # The variables may be set and nothing be there: the program tries it, and is not heard if it fails.
   if (exec "$desktop" --check-display) >/dev/null 2>&1; then
@@ -29,7 +38,7 @@ if [ -z "$headless" ]; then
   say "The display does not answer: the demo runs without a window"
 fi
 
-set_up handeye -DHANDEYE_WARNINGS_AS_ERRORS=
+set_up 'handeye NavigationDesktop' -DHANDEYE_WARNINGS_AS_ERRORS=
 handeye=$build_dir/bin/handeye
 demo=Resources/Demo
 output=output/demo

@@ -68,7 +68,7 @@ install_packages()
   fi
 }
 
-# build_project <target> <extra cmake arguments...>
+# build_project <targets> <extra cmake arguments...>
 build_project()
 {
   local target=$1
@@ -79,11 +79,13 @@ build_project()
     tail -n 20 build/configure.log >&2
     fail "the build could not be configured; the whole of it is in build/configure.log"
   fi
-  say "Building with $(nproc) cores (some minutes the first time)"
-  NINJA_STATUS='[%f of %t, %es] ' cmake --build --preset release --target "$target" || fail "the build failed; the first error above says where"
+  say "Building with $(nproc) cores (the first time 10 to 40 minutes, and 3 GB of disk)"
+  # shellcheck disable=SC2086
+  NINJA_STATUS='[%f of %t, %es] ' cmake --build --preset release --target $target ||
+    fail "the build failed or was interrupted: an error above says where, without one run this again to go on"
 }
 
-# set_up <target> <extra cmake arguments...>
+# set_up <targets> <extra cmake arguments...>
 set_up()
 {
   check_system

@@ -152,12 +152,34 @@ void CaptureTask::setInputs(const std::optional<CaptureInputs>& inputs)
     return;
   }
   inputs_ = inputs;
+  ++evaluations_;
   post(
     [this, inputs](Work& work)
     {
       work.inputs = inputs;
-      evaluateAll(work);
+      try
+      {
+        evaluateAll(work);
+      }
+      catch (...)
+      {
+        tell([](CaptureTask& task) { task.endEvaluation(false); });
+        throw;
+      }
+      tell([](CaptureTask& task) { task.endEvaluation(true); });
     });
+  emit samplesChanged();
+}
+
+void CaptureTask::endEvaluation(bool isGood)
+{
+  --evaluations_;
+  isBroken_ = !isGood;
+  if (!isGood)
+  {
+    setBusy(false);
+  }
+  emit samplesChanged();
 }
 
 void CaptureTask::setHandsFree(bool isHandsFree)
@@ -246,6 +268,11 @@ void CaptureTask::importRecording(const QString& path)
   if (!inputs_)
   {
     emit failed(tr("A camera, a stylus and the ball's radius are needed first."));
+    return;
+  }
+  if (!isOpen_)
+  {
+    emit failed(tr("There is no session to put the samples into: choose a folder that can be written to on the page Devices."));
     return;
   }
   setBusy(true);

@@ -85,6 +85,8 @@ public:
   /// Each frame of a recording in which the ball is found becomes a sample; progress() and imported() tell.
   void importRecording(const QString& path);
   bool isBusy() const { return isBusy_; }
+  /// The samples are those of other inputs: they are being evaluated anew, or could not be.
+  bool isStale() const { return evaluations_ > 0 || isBroken_; }
 
   /// Stores a result or settings with the session.
   void setDocument(const std::string& name, const nlohmann::json& document);
@@ -118,6 +120,7 @@ private:
   void addSample(const CaptureSample& sample, bool isNew);
   void storeDeleted();
   void evaluateAll(Work& work);
+  void endEvaluation(bool isGood);
   void readRecording(Work& work, const std::string& path, const ToolNames& tools);
   void take(Work& work, const devices::PairedFrame& frame);
 
@@ -127,6 +130,8 @@ private:
   QMap<int, CaptureSample> samples_;
   QString folder_, hint_;
   bool isOpen_ = false, isHandsFree_ = false, isBusy_ = false;
+  int evaluations_ = 0;    ///< under way, after inputs were changed
+  bool isBroken_ = false;  ///< the last one failed
 };
 
 }  // namespace handeye

@@ -91,7 +91,15 @@ void CaptureTask::evaluateAll(Work& work)
   tell(
     [samples](CaptureTask& task)
     {
-      task.samples_ = samples;
+      // What a person excluded or deleted meanwhile stays so.
+      QMap<int, CaptureSample> evaluated = samples;
+      for (CaptureSample& sample : evaluated)
+      {
+        const auto before = task.samples_.constFind(sample.id);
+        sample.isExcluded = before == task.samples_.constEnd() ? sample.isExcluded : before->isExcluded;
+        sample.isDeleted = before == task.samples_.constEnd() ? sample.isDeleted : before->isDeleted;
+      }
+      task.samples_ = evaluated;
       task.setBusy(false);
       emit task.samplesChanged();
     });

@@ -272,8 +272,19 @@ void HandEyeWorkbench::loadCamera(const QString& path)
 
 void HandEyeWorkbench::setCamera(const io::CameraFile& file, const QString& origin)
 {
+  const bool isOtherLens = calibration_ &&
+    (!calibration_->camera.cameraMatrix().isApprox(file.camera.cameraMatrix()) ||
+      calibration_->camera.distortionCoefficients() != file.camera.distortionCoefficients());
   camera_ = Camera{ file, origin };
   store("camera", cameraDocument(*camera_));
+  if (isCalibrationLoaded_ && isOtherLens)
+  {
+    // Nothing can be calibrated anew: it came without samples.
+    isCalibrationLoaded_ = false;
+    calibration_.reset();
+    emit calibrationChanged();
+    refuse(WizardStep::Camera, tr("The calibration that was loaded is of another lens and is not used any more."));
+  }
   emit cameraChanged();
   emit happened(tr("camera: %1").arg(origin));
   updateInputs();

@@ -69,7 +69,8 @@ void HandEyeWorkbench::calibrateNow()
     return;
   }
   isCalibrationLoaded_ = false;
-  if (!inputs)
+  // Samples of another lens, tip or ball say nothing of this one: there is no calibration until they have been looked at again.
+  if (!inputs || capture_->isStale())
   {
     calibration_.reset();
     emit calibrationChanged();

@@ -108,7 +108,12 @@ void HandEyeWorkbench::takeDocuments(const std::map<std::string, json>& document
 {
   sessionProblems_ = problems;
   const json ball = entry(documents, "ball");
-  ball_.radiusMm = number(ball, "radiusMm", ball_.radiusMm);
+  const auto positive = [&](const char* key, double otherwise)
+  {
+    const double value = number(ball, key, otherwise);
+    return value > 0 && std::isfinite(value) ? value : otherwise;
+  };
+  ball_.radiusMm = positive("radiusMm", ball_.radiusMm);
   ball_.isColorLearnt = ball.is_object() && ball.value("isColorLearnt", json()) == json(true);
   ball_.message = text(ball, "message", {});
   BallColor color;
@@ -119,9 +124,13 @@ void HandEyeWorkbench::takeDocuments(const std::map<std::string, json>& document
   color.minimumChroma = number(ball, "minimumChroma", color.minimumChroma);
   color.minimumMedianSaturation = number(ball, "minimumMedianSaturation", color.minimumMedianSaturation);
   ball_.color = color;
-  nearestMm_ = number(ball, "nearestMm", nearestMm_);
-  furthestMm_ = number(ball, "furthestMm", furthestMm_);
-  enoughPx_ = number(ball, "enoughPx", enoughPx_);
+  const double nearestMm = positive("nearestMm", nearestMm_), furthestMm = positive("furthestMm", furthestMm_);
+  if (nearestMm < furthestMm)
+  {
+    nearestMm_ = nearestMm;
+    furthestMm_ = furthestMm;
+  }
+  enoughPx_ = positive("enoughPx", enoughPx_);
   const json devices = entry(documents, "devices");
   if (devices.is_object() && !devices_->isConnected())
   {

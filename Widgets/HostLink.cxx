@@ -119,7 +119,9 @@ void HostLink::showResults()
   const std::optional<CalibrationStepResult>& calibration = workbench_.calibration();
   const bool isUsable = calibration && calibration->isUsable();
   const auto& camera = workbench_.camera();
-  scene_.setCameraModel(camera ? std::optional<CameraModel>(camera->file.camera) : std::nullopt, workbench_.furthestMm());
+  // A camera file without an image size is one, too; its frustum is not known.
+  const bool hasFrustum = camera && camera->file.camera.hasImageSize();
+  scene_.setCameraModel(hasFrustum ? std::optional<CameraModel>(camera->file.camera) : std::nullopt, workbench_.furthestMm());
   scene_.setMarkerToCamera(isUsable ? std::optional<Eigen::Isometry3d>(calibration->calibration.markerToCamera) : std::nullopt);
   scene_.setStylusTip(workbench_.stylus() ? std::optional<Eigen::Vector3d>(workbench_.stylus()->tip_Stylus) : std::nullopt,
     workbench_.ball().radiusMm);

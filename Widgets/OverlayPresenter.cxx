@@ -64,6 +64,16 @@ OverlayPresenter::OverlayPresenter(HandEyeWorkbench& workbench, VideoView& view,
   connect(&workbench, &HandEyeWorkbench::stylusChanged, this, &OverlayPresenter::applyCalibration);
   connect(&workbench, &HandEyeWorkbench::ballChanged, this, &OverlayPresenter::applyCalibration);
   connect(&workbench, &HandEyeWorkbench::stepEntered, this, &OverlayPresenter::applyLook);
+  // A model on a picture that stands still looks right and is not.
+  silence_.setSingleShot(true);
+  silence_.setInterval(1500);
+  connect(&silence_, &QTimer::timeout, this,
+    [this]
+    {
+      forget();
+      hide(tr("No new picture has come for 1.5 s: the model is not drawn on an old one."));
+      view_.requestRender();
+    });
   view_.pipeline()->SetModelVisible(false);
   view_.pipeline()->SetModelOpacity(opacity_);
 }
@@ -139,6 +149,7 @@ void OverlayPresenter::show(const LiveView& shown)
     hide(problem);
     return;
   }
+  silence_.start();
   feed(*transforms);
   if (!live_)
   {

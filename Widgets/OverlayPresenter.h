@@ -8,6 +8,7 @@
 #include "VideoView.h"
 
 #include <QObject>
+#include <QTimer>
 
 #include <memory>
 #include <optional>
@@ -52,6 +53,9 @@ public:
   /// What the view shows now becomes a picture of the session.
   void takeSnapshot();
 
+  /// Takes the model out of the view. @param problem why, a sentence; may be empty
+  void hide(const QString& problem);
+
 signals:
   void stateChanged(const handeye::OverlayState& state);
   /// A key changed the look or the opacity.
@@ -67,7 +71,6 @@ private:
 
   bool isWanted() const;
   void forget();
-  void hide(const QString& problem);
   void feed(const OverlayTransforms& transforms);
   void showStylus(const devices::PairedFrame& frame);
   void applyLook();
@@ -81,6 +84,7 @@ private:
   OverlayLook look_;
   double opacity_ = 0.65;
   bool smooth_ = false;
+  QTimer silence_;  ///< runs out when no picture comes any more
 };
 
 }  // namespace handeye

@@ -80,6 +80,7 @@ void VideoPresenter::showFrame()
   {
     view_.setFrame({});
     view_.setDetection({});
+    overlay_->hide({});
     return;
   }
   // Where drawing is slow (OpenGL in software), at least half of the time is left to everything else.
@@ -141,7 +142,7 @@ void VideoPresenter::showGhost()
   VideoView::GhostBall ghost;
   ghost.outline_Image_Px =
     outlineOf(calibration->guidance->ball_Camera, workbench_.ball().radiusMm, workbench_.camera()->file.camera);
-  ghost.hint = tr("next: %1 mm away").arg(calibration->guidance->ball_Camera.norm(), 0, 'f', 0);
+  ghost.hint = tr("next: %1 mm away").arg(calibration->guidance->ball_Camera.z(), 0, 'f', 0);
   view_.setGhostBall(ghost);
 }
 

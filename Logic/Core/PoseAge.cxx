@@ -86,6 +86,23 @@ PoseAge judgePoseAge(const std::vector<ToolSight>& tools, double nowSec, const P
   return result;
 }
 
+PoseAge judgePoseAge(
+  const std::vector<ToolSight>& tools, const std::optional<double>& togetherSec, double nowSec, const PoseAgeOptions& options)
+{
+  const PoseAge each = judgePoseAge(tools, nowSec, options);
+  if (!each.isUsable())
+  {
+    return each;
+  }
+  std::string names;
+  for (const ToolSight& tool : tools)
+  {
+    names += (names.empty() ? "" : " and ") + tool.name;
+  }
+  const PoseAge together = judgePoseAge({ { names + " at once", togetherSec } }, nowSec, options);
+  return together.opacity < each.opacity ? together : each;
+}
+
 std::string toString(PoseAge::Status status)
 {
   switch (status)

@@ -47,6 +47,9 @@ struct DeviceStatus
   std::string message;
 };
 
+/// Metadata of an image: the latency (s) with which the poses beside it were already brought to its moment.
+constexpr const char* AppliedLatencyKey = "AppliedLatencySec";
+
 /// Anything that a source delivers, with its times.
 struct DeviceSample
 {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FramePairing.h"
 
+#include "NumberText.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +15,12 @@ namespace
 
 /// A hostile sender may invent tools without end.
 constexpr std::size_t LargestTrackCount = 200, LargestOtherCount = 10;
+
+double appliedLatencySec(const DeviceSample& image)
+{
+  const auto applied = image.metadata.find(AppliedLatencyKey);
+  return applied == image.metadata.end() ? 0 : io::parseDouble(applied->second).value_or(0);
+}
 
 }  // namespace
 
@@ -80,9 +88,15 @@ void FramePairing::add(DeviceSample sample)
   waiting_.push_back(std::move(sample));
 }
 
+/// Of what is wanted; a latency of 0 is none that was asked for, and what a recording has stays.
+double FramePairing::missingLatencySec(const DeviceSample& image) const
+{
+  return options_.latencySec == 0 ? 0 : options_.latencySec - appliedLatencySec(image);
+}
+
 bool FramePairing::isReady(const DeviceSample& image) const
 {
-  const double poseTimeSec = image.timeSec + options_.latencySec;
+  const double poseTimeSec = image.timeSec + missingLatencySec(image);
   if (waiting_.size() > options_.maximumWaiting || newestSec_ > std::max(image.timeSec, poseTimeSec) + options_.maximumWaitSec)
   {
     return true;
@@ -99,8 +113,8 @@ bool FramePairing::isReady(const DeviceSample& image) const
 PairedFrame FramePairing::pair(DeviceSample image) const
 {
   PairedFrame paired;
-  paired.latencySec = options_.latencySec;
-  paired.poseTimeSec = image.timeSec + options_.latencySec;
+  paired.latencySec = options_.latencySec == 0 ? appliedLatencySec(image) : options_.latencySec;
+  paired.poseTimeSec = image.timeSec + missingLatencySec(image);
   for (const std::string& name : options_.toolNames)
   {
     paired.poses[name].message = "no pose was received";

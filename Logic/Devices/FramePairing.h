@@ -34,7 +34,7 @@ struct PairedFrame
 {
   DeviceSample image;
   double poseTimeSec = 0;                   ///< the moment of the poses, by the tracker's times
-  double latencySec = 0;                    ///< that is in it
+  double latencySec = 0;                    ///< that is in them: the one asked for, or the one that a recording was made with
   std::map<std::string, PoseAtTime> poses;  ///< by tool; each says itself whether and why (not) it is usable
 };
 
@@ -44,6 +44,9 @@ struct PairedFrame
 /// Times of one server are by one clock. Of a source with another clock (a camera beside a tracker's server), map the times first,
 /// see
 /// ClockOffset.
+///
+/// Images of a recording that was made with a latency say so in their metadata (AppliedLatencyKey): of the latency asked for only what
+/// is missing is applied.
 ///
 /// Not safe to share between threads.
 class FramePairing
@@ -74,6 +77,7 @@ public:
 private:
   bool isWanted(const DeviceSample& sample);
   bool isReady(const DeviceSample& image) const;
+  double missingLatencySec(const DeviceSample& image) const;
   PairedFrame pair(DeviceSample image) const;
 
   FramePairingOptions options_;

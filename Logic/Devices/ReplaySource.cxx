@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReplaySource.h"
 
+#include "NumberText.h"
 #include "Recording.h"
 
 #include <algorithm>
@@ -77,7 +78,12 @@ void ReplaySource::deliverFrame(const io::Recording& recording, int frame, doubl
   {
     VideoFrame video;
     video.image = recording.image(frame);
-    deliver({ options_.imageName, timeSec, 0, {}, std::move(video) });
+    std::map<std::string, std::string> metadata;
+    if (recording.appliedLatencySec() != 0)
+    {
+      metadata[AppliedLatencyKey] = io::formatDouble(recording.appliedLatencySec());
+    }
+    deliver({ options_.imageName, timeSec, 0, std::move(metadata), std::move(video) });
   }
 }
 

@@ -46,13 +46,28 @@ LiveOverlay::LiveOverlay(const OverlayTransforms& transforms, const LiveOverlayO
 {
 }
 
+/// A clock that was set, or a recording that begins anew: what was seen before says nothing now.
+void LiveOverlay::forgetIfClockWasSet(const PoseTrack& track, double timeSec)
+{
+  if (!track.isEmpty() && timeSec < track.newestSec() - options_.track.historySec)
+  {
+    marker_.clear();
+    phantom_.clear();
+    smoother_.reset();
+    markerSeenSec_ = phantomSeenSec_ = placedSec_ = std::nullopt;
+    last_.reset();
+  }
+}
+
 void LiveOverlay::addMarker(double timeSec, const Eigen::Isometry3d& markerToTracker, bool isValid)
 {
+  forgetIfClockWasSet(marker_, timeSec);
   marker_.add(timeSec, markerToTracker, isValid);
 }
 
 void LiveOverlay::addPhantom(double timeSec, const Eigen::Isometry3d& phantomToTracker, bool isValid)
 {
+  forgetIfClockWasSet(phantom_, timeSec);
   phantom_.add(timeSec, phantomToTracker, isValid);
 }
 
@@ -60,6 +75,7 @@ void LiveOverlay::setTransforms(const OverlayTransforms& transforms)
 {
   transforms_ = transforms;
   last_.reset();
+  placedSec_.reset();
   smoother_.reset();
 }
 
@@ -92,8 +108,11 @@ LiveOverlayPose LiveOverlay::at(double frameSec)
       delaySec_ = smooth.delaySec;
     }
   }
+  placedSec_ = placed ? timeSec : placedSec_;
+  const std::vector<ToolSight> tools = { { options_.phantomName, phantomSeenSec_ }, { options_.markerName, markerSeenSec_ } };
+  // Before the first placement there is a sentence of its own.
   const PoseAge age =
-    judgePoseAge({ { options_.phantomName, phantomSeenSec_ }, { options_.markerName, markerSeenSec_ } }, timeSec, options_.age);
+    placedSec_ ? judgePoseAge(tools, placedSec_, timeSec, options_.age) : judgePoseAge(tools, timeSec, options_.age);
   result.status = age.status;
   result.message = age.message;
   result.delaySec = delaySec_;

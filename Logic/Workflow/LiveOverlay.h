@@ -71,11 +71,13 @@ public:
   void setSmoothing(bool smooth);
 
 private:
+  void forgetIfClockWasSet(const PoseTrack& track, double timeSec);
+
   OverlayTransforms transforms_;
   LiveOverlayOptions options_;
   PoseTrack marker_, phantom_;
   PoseSmoother smoother_;
-  std::optional<double> markerSeenSec_, phantomSeenSec_;
+  std::optional<double> markerSeenSec_, phantomSeenSec_, placedSec_;  ///< placed: both at once
   std::optional<Eigen::Isometry3d> last_;
   double delaySec_ = 0;
 };

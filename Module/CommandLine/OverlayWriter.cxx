@@ -117,7 +117,9 @@ std::optional<Eigen::Isometry3d> OverlayEye::fadedPose(const OverlayPose& pose, 
   };
   look(tools_.markerToTracker, markerSeenSec_);
   look(arguments_.phantomTransform, phantomSeenSec_);
-  const PoseAge age = judgePoseAge({ { "phantom", phantomSeenSec_ }, { "camera's marker", markerSeenSec_ } }, timeSec);
+  placedSec_ = pose.isUsable() ? timeSec : placedSec_;
+  const std::vector<ToolSight> tools = { { "phantom", phantomSeenSec_ }, { "camera's marker", markerSeenSec_ } };
+  const PoseAge age = placedSec_ ? judgePoseAge(tools, placedSec_, timeSec) : judgePoseAge(tools, timeSec);
   // A model that was never placed (the tools were seen, but never together) is not there to fade.
   const bool shown = age.isUsable() && (pose.isUsable() || lastModelToCamera_);
   pipeline_->SetFade(age.opacity);

@@ -58,7 +58,7 @@ private:
   bool isDrawn_ = false;
   PoseSmoother smoother_;
   std::optional<Eigen::Isometry3d> lastModelToCamera_;
-  std::optional<double> markerSeenSec_, phantomSeenSec_;
+  std::optional<double> markerSeenSec_, phantomSeenSec_, placedSec_;
 };
 
 /// Draws the model onto the frames of a recording, one PNG a frame, and a video if one was asked for.

@@ -68,6 +68,28 @@ TEST(FramePairing, Latency_MovesThePosesMoment)
   EXPECT_NEAR(xOf(*later.take()), 114, 1e-9);
 }
 
+/// A recording that was made with a latency is played: what is in it already is not applied again, and is still said.
+TEST(FramePairing, LatencyOfARecording_IsAppliedOnce)
+{
+  for (double wantedSec : { 0.0, -0.04, -0.05 })
+  {
+    FramePairingOptions options;
+    options.latencySec = wantedSec;
+    FramePairing pairing(options);
+    for (int i = 0; i < 20; ++i)
+    {
+      pairing.add(poseAt(1 + 0.01 * i));
+    }
+    DeviceSample image = imageAt(1.1);
+    image.metadata[AppliedLatencyKey] = "-0.04";
+    pairing.add(image);
+    const std::optional<PairedFrame> frame = pairing.take();
+    ASSERT_TRUE(frame);
+    EXPECT_NEAR(xOf(*frame), wantedSec == -0.05 ? 109 : 110, 1e-9) << wantedSec;
+    EXPECT_NEAR(frame->latencySec, wantedSec == 0 ? -0.04 : wantedSec, 1e-12) << wantedSec;
+  }
+}
+
 TEST(FramePairing, HiddenTool_IsSaidSo)
 {
   FramePairing pairing;

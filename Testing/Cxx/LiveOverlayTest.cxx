@@ -88,6 +88,44 @@ TEST(LiveOverlay, HiddenPhantom_FadesThenGoes_AndComesBack)
   EXPECT_EQ(back.message, "");
 }
 
+/// Each tool by itself was seen a moment ago, but the model was placed when both were seen: it must not stay there.
+TEST(LiveOverlay, ToolsHiddenInTurn_FadeAsIfOneWereHidden)
+{
+  LiveOverlay overlay(rig());
+  feed(overlay, 0, 1);
+  ASSERT_TRUE(overlay.at(0.97).isUsable());
+  for (int i = 0; i < 100; ++i)
+  {
+    const double timeSec = 1 + 0.02 * i;
+    const bool isPhantomsTurn = i / 5 % 2 == 0;
+    overlay.addMarker(timeSec, markerAt(timeSec), !isPhantomsTurn);
+    overlay.addPhantom(timeSec, phantomAt(timeSec), isPhantomsTurn);
+    const LiveOverlayPose shown = overlay.at(timeSec);
+    if (timeSec > 1.8)
+    {
+      EXPECT_FALSE(shown.isUsable()) << timeSec;
+      EXPECT_NE(shown.message.find("at once"), std::string::npos) << shown.message;
+    }
+    else if (timeSec > 1.3)
+    {
+      EXPECT_LT(shown.opacity, 1) << timeSec;
+    }
+  }
+}
+
+TEST(LiveOverlay, ClockThatWasSet_BeginsAnew)
+{
+  LiveOverlay overlay(rig());
+  feed(overlay, 1000, 1001);
+  ASSERT_TRUE(overlay.at(1000.97).isUsable());
+  overlay.addMarker(5, markerAt(5));
+  EXPECT_FALSE(overlay.at(5).isUsable()) << "the phantom was not seen since";
+  feed(overlay, 5.02, 6);
+  const LiveOverlayPose shown = overlay.at(5.9);
+  ASSERT_TRUE(shown.isUsable()) << shown.message;
+  EXPECT_LT((shown.modelToCamera->matrix() - toModelToCamera(rig(), markerAt(5.9), phantomAt(5.9)).matrix()).norm(), 1e-3);
+}
+
 TEST(LiveOverlay, StreamThatStops_FadesToo)
 {
   LiveOverlay overlay(rig());
