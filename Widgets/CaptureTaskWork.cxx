@@ -84,6 +84,10 @@ void CaptureTask::evaluateAll(Work& work)
   const int total = int(work.session->samples().size());
   for (const auto& stored : work.session->samples())
   {
+    if (thread_.isEnding())
+    {
+      return;
+    }
     samples.insert(stored.first, work.evaluate(stored.first));
     tell([done = samples.size(), total](CaptureTask& task)
       { emit task.progress(done, total, tr("looking for the ball in the stored samples")); });

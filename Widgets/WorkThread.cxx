@@ -54,7 +54,7 @@ void WorkThread::run()
         isCancelled_ = false;
       }
       changed_.wait(lock, [this] { return isEnding_ || !work_.empty() || newest_; });
-      if (isEnding_)
+      if (isEnding_ && work_.empty())
       {
         return;
       }

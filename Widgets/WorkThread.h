@@ -25,7 +25,8 @@ public:
 
   /// @param onError receives the sentence of an exception that left a piece of work
   explicit WorkThread(std::function<void(const char*)> onError);
-  /// Waits for the work under way, which isCancelled(); drops the rest.
+  /// Waits for the work under way and does what was posted, so that nothing that is to be stored is lost; what takes long is
+  /// isCancelled() and ends early.
   ~WorkThread();
   WorkThread(const WorkThread&) = delete;
   WorkThread& operator=(const WorkThread&) = delete;
@@ -37,6 +38,8 @@ public:
   /// Asks the work under way, and what waits behind it, to stop; forgotten once all of that is done.
   void cancel() { isCancelled_ = true; }
   bool isCancelled() const { return isCancelled_ || isEnding_; }
+  /// The thread is being ended: nobody waits for results any more.
+  bool isEnding() const { return isEnding_; }
 
 private:
   void run();
