@@ -17,6 +17,10 @@ BallPage::BallPage(HandEyeWorkbench& workbench, QWidget* parent)
   , ui_(std::make_unique<Ui::BallPage>())
 {
   ui_->setupUi(this);
+  // What is said of the ball changes with every frame: the page must not move with it.
+  constexpr int LinesOfFound = 4;
+  ui_->foundLabel->setMinimumHeight(LinesOfFound * ui_->foundLabel->fontMetrics().lineSpacing());
+  ui_->foundLabel->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   connect(ui_->radiusSpin, qOverload<double>(&QDoubleSpinBox::valueChanged), &workbench_, &HandEyeWorkbench::setBallRadius);
   connect(ui_->forgetButton, &QPushButton::clicked, &workbench_, &HandEyeWorkbench::forgetBallColor);
   connect(ui_->stages, &StagesView::imageClicked, &workbench_, &HandEyeWorkbench::learnBallColor);
@@ -51,7 +55,7 @@ void BallPage::showFrame()
   }
   else if (view->ball)
   {
-    ui_->foundLabel->setText(view->ball->isFound() ? tr("%1 px from side to side, %2 mm away, %3 % of its outline is seen")
+    ui_->foundLabel->setText(view->ball->isFound() ? tr("%1 px across, %2 mm away, %3 % of its outline seen")
                                                        .arg(2 * view->ball->radiusPx, 0, 'f', 1)
                                                        .arg(view->ball->distanceMm, 0, 'f', 0)
                                                        .arg(100 * view->ball->visibleShare, 0, 'f', 0)
