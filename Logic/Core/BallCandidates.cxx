@@ -17,16 +17,25 @@ namespace
 {
 
 constexpr double Pi = double(EIGEN_PI);
-constexpr std::size_t MaximumRegions = 8;
+/// So many of the largest regions are looked at, whatever they are like, and so many of the others that are round by themselves.
+constexpr std::size_t LargestRegions = 8;
+constexpr std::size_t RoundRegions = 24;
 constexpr std::size_t MaximumCandidates = 12;
+constexpr std::size_t MaximumRoundCandidates = 6;
+/// A region is round if it fills its box so far and this is no longer than so; a half disc is.
+constexpr double LeastOfBox = 0.48;
+constexpr double MostOfBox = 0.92;
+constexpr double LongestBox = 2.4;
 constexpr int MaximumConesPerRegion = 2;
 constexpr std::size_t BorderSamples = 320;
 /// Draws of three border points; half of them from one stretch of the border, where they are likely to be of one outline.
 constexpr int MostDraws = 240;
 /// No more draws once all three points were on the best outline with this certainty.
 constexpr double Certainty = 0.9999;
-/// A border point supports a cone when it is this close to it, in px.
+/// A border point supports a cone when it is this close to it, in px; of a small one, this share of its radius.
 constexpr double SupportPx = 1.5;
+constexpr double LeastSupportPx = 0.8;
+constexpr double SupportShare = 0.12;
 /// A hole (a highlight) is closed when it is smaller than this share of its region.
 constexpr double HighlightShare = 0.2;
 /// A cone is followed up when this share of its outline lies on the region's border.
@@ -112,7 +121,7 @@ public:
   void remove(const SphereCone& cone)
   {
     const double cosine = std::cos(cone.halfAngle);
-    const double tolerance = 3 * SupportPx / focalPx_ * std::sin(cone.halfAngle);
+    const double tolerance = 3 * supportPx(cone) / focalPx_ * std::sin(cone.halfAngle);
     std::size_t count = 0;
     for (std::size_t i = 0; i < x_.size(); ++i)
     {
@@ -131,6 +140,10 @@ public:
 private:
   Eigen::Vector3d ray(std::size_t i) const { return { double(x_[i]), double(y_[i]), double(z_[i]) }; }
   double radiusPx(const SphereCone& cone) const { return focalPx_ * std::tan(cone.halfAngle); }
+  double supportPx(const SphereCone& cone) const
+  {
+    return std::clamp(SupportShare * radiusPx(cone), LeastSupportPx, SupportPx);
+  }
 
   Candidate judge(const SphereCone& cone, double minimumRadiusPx) const
   {
@@ -139,7 +152,7 @@ private:
       return {};
     }
     // |cos(angle) - cos(halfAngle)| is the angle's deviation times sin(halfAngle): no arc cosine in the inner loop.
-    const double tolerance = SupportPx / focalPx_ * std::sin(cone.halfAngle);
+    const double tolerance = supportPx(cone) / focalPx_ * std::sin(cone.halfAngle);
     const double count = countNear(x_.data(), y_.data(), z_.data(), int(x_.size()), cone.axis_Camera.cast<float>(),
       float(std::cos(cone.halfAngle)), float(tolerance));
     const double share = count * pixelsPerSample_ / (2 * Pi * radiusPx(cone));
@@ -152,18 +165,39 @@ private:
   std::vector<float> x_, y_, z_;  ///< unit rays
 };
 
-using Border = std::vector<cv::Point>;
+using Contour = std::vector<cv::Point>;
 
-/// The outer border of each region and of each of its holes that is too large to be a highlight; the largest regions first.
+/// The outer border of a region and of each of its holes that is too large to be a highlight.
+struct Border
+{
+  Contour pixels;
+  bool isOfLargest = true;  ///< the region is one of the largest; otherwise it is a round one
+};
+
+struct Region
+{
+  double area;
+  std::size_t contour;
+  bool isRound;
+};
+
+bool isRound(double area, const cv::Rect& box)
+{
+  // The border goes through the centres of pixels.
+  const double width = std::max(1, box.width - 1), height = std::max(1, box.height - 1), share = area / (width * height);
+  return share >= LeastOfBox && share <= MostOfBox && std::max(width, height) <= LongestBox * std::min(width, height);
+}
+
+/// The borders of the regions, the largest first.
 /// @param around becomes what all of them together cover (px of the mask)
 std::vector<Border> findBorders(const cv::Mat& mask, const cv::Point& origin, double minimumRadiusPx,
   const std::function<bool(const cv::Rect&)>& isKnown, cv::Rect& around)
 {
-  std::vector<Border> contours;
+  std::vector<Contour> contours;
   std::vector<cv::Vec4i> hierarchy;
   cv::findContours(mask, contours, hierarchy, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
   const double minimumArea = minimumRadiusPx * minimumRadiusPx;
-  std::vector<std::pair<double, std::size_t>> regions;
+  std::vector<Region> regions;
   around = {};
   for (std::size_t i = 0; i < contours.size(); ++i)
   {
@@ -177,27 +211,42 @@ std::vector<Border> findBorders(const cv::Mat& mask, const cv::Point& origin, do
     const cv::Rect box = cv::boundingRect(contours[i]);
     if (area >= minimumArea && !isKnown(box + origin))
     {
-      regions.emplace_back(area, i);
+      regions.push_back({ area, i, isRound(area, box) });
       around |= box;
     }
   }
-  std::sort(regions.begin(), regions.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  regions.resize(std::min(regions.size(), MaximumRegions));
+  std::sort(regions.begin(), regions.end(), [](const Region& a, const Region& b) { return a.area > b.area; });
   std::vector<Border> borders;
-  for (const auto& [area, index] : regions)
+  for (std::size_t i = 0; i < regions.size() && borders.size() < LargestRegions + RoundRegions; ++i)
   {
-    Border border = std::move(contours[index]);
-    for (int hole = hierarchy[index][2]; hole >= 0; hole = hierarchy[std::size_t(hole)][0])
+    const bool isOfLargest = i < LargestRegions;
+    if (!isOfLargest && !regions[i].isRound)
     {
-      const Border& rim = contours[std::size_t(hole)];
-      if (double(rim.size()) > minimumRadiusPx && cv::contourArea(rim) > HighlightShare * area)
+      continue;
+    }
+    const std::size_t outer = regions[i].contour;
+    Border border{ std::move(contours[outer]), isOfLargest };
+    for (int hole = hierarchy[outer][2]; hole >= 0; hole = hierarchy[std::size_t(hole)][0])
+    {
+      const Contour& rim = contours[std::size_t(hole)];
+      if (double(rim.size()) > minimumRadiusPx && cv::contourArea(rim) > HighlightShare * regions[i].area)
       {
-        border.insert(border.end(), rim.begin(), rim.end());
+        border.pixels.insert(border.pixels.end(), rim.begin(), rim.end());
       }
     }
     borders.push_back(std::move(border));
   }
   return borders;
+}
+
+/// The best of the candidates.
+void takeBest(std::vector<Candidate> candidates, std::size_t most, std::vector<SphereCone>& cones)
+{
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  for (std::size_t i = 0; i < std::min(most, candidates.size()); ++i)
+  {
+    cones.push_back(candidates[i].cone);
+  }
 }
 
 }  // namespace
@@ -206,28 +255,24 @@ BallCandidates findBallCandidates(const cv::Mat& mask, const cv::Point& origin, 
   double minimumRadiusPx, const std::function<bool(const cv::Rect&)>& isKnown)
 {
   BallCandidates result;
-  std::vector<Candidate> candidates;
+  std::vector<Candidate> ofLargest, ofRound;
   for (const Border& border : findBorders(mask, origin, minimumRadiusPx, isKnown, result.around))
   {
-    BorderRays rays(border, origin, grid, focalPx);
-    for (int k = 0; k < MaximumConesPerRegion; ++k)
+    BorderRays rays(border.pixels, origin, grid, focalPx);
+    for (int k = 0; k < (border.isOfLargest ? MaximumConesPerRegion : 1); ++k)
     {
       const Candidate candidate = rays.bestCone(minimumRadiusPx);
       if (candidate.share < FewestSupport)
       {
         break;
       }
-      candidates.push_back(candidate);
+      (border.isOfLargest ? ofLargest : ofRound).push_back(candidate);
       rays.remove(candidate.cone);
     }
   }
+  takeBest(std::move(ofLargest), MaximumCandidates, result.cones);
+  takeBest(std::move(ofRound), MaximumRoundCandidates, result.cones);
   result.around += origin;
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-  candidates.resize(std::min(candidates.size(), MaximumCandidates));
-  for (const Candidate& candidate : candidates)
-  {
-    result.cones.push_back(candidate.cone);
-  }
   return result;
 }
 

@@ -15,7 +15,9 @@ namespace handeye
 
 struct BallCandidates
 {
-  std::vector<SphereCone> cones;  ///< at most a dozen, the best supported first; the same ball may be there more than once
+  /// At most a dozen of the largest regions, the best supported first, then at most six of smaller ones that are round by themselves; the
+  /// same ball may be there more than once.
+  std::vector<SphereCone> cones;
   cv::Rect around;                ///< px of the image: outside of it there is no region that is large enough
 };
 

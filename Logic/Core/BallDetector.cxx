@@ -42,6 +42,8 @@ constexpr double LargestTwoSidedWidthPx = 2.2;
 /// The edge points of something smeared scatter up to so much (px), and all around.
 constexpr double LargestSmearedSigmaPx = 0.6;
 constexpr double VisibleOfSmeared = 0.8;
+/// A candidate this close to one that was tried, as a share of its size, leads to the same outline.
+constexpr double AlreadyTried = 0.03;
 /// From this on half of it is added to the standard deviation.
 constexpr double NoticeableTwoSidedWidthPx = 1;
 
@@ -88,13 +90,17 @@ private:
     {
       return;
     }
-    std::optional<OutlineFit> fit = fitOutlineRoughly(light_, camera_, candidate);
-    if (!fit || !judgeOutline(*fit, image_, levels_, level, camera_, options_, LargestRoughSigmaPx).isPartOfBall)
+    Attempt& attempt = attemptAt(candidate);
+    if (!attempt.rough || !judgeOutline(*attempt.rough, image_, levels_, level, camera_, options_, LargestRoughSigmaPx).isPartOfBall)
     {
       return;
     }
-    fit = fitOutlineFinely(light_, camera_, *fit);
-    if (fit)
+    if (!attempt.isFollowed)
+    {
+      attempt.fine = fitOutlineFinely(light_, camera_, *attempt.rough);
+      attempt.isFollowed = true;
+    }
+    if (const std::optional<OutlineFit>& fit = attempt.fine)
     {
       const auto judge = [&](double largestSigmaPx)
       { return judgeOutline(*fit, image_, levels_, level, camera_, options_, largestSigmaPx); };
@@ -105,6 +111,27 @@ private:
     }
   }
 
+  /// What became of a candidate: the same at every level.
+  struct Attempt
+  {
+    SphereCone candidate;
+    std::optional<OutlineFit> rough;
+    bool isFollowed = false;
+    std::optional<OutlineFit> fine;
+  };
+
+  Attempt& attemptAt(const SphereCone& candidate)
+  {
+    const auto same = std::find_if(attempts_.begin(), attempts_.end(),
+      [&](const Attempt& attempt) { return attempt.candidate.isCloseTo(candidate, AlreadyTried); });
+    if (same != attempts_.end())
+    {
+      return *same;
+    }
+    attempts_.push_back({ candidate, fitOutlineRoughly(light_, camera_, candidate), false, {} });
+    return attempts_.back();
+  }
+
   const cv::Mat& image_;
   const CameraModel& camera_;
   const RayGrid& grid_;
@@ -112,6 +139,7 @@ private:
   BallColorLevels levels_;
   LinearLightImage light_;
   BallFindings findings_;
+  std::vector<Attempt> attempts_;
 };
 
 /// Fills in all that follows from the ray to the ball's centre.

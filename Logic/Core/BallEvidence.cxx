@@ -75,6 +75,12 @@ Inside lookInside(const cv::Mat& image, const BallColorLevels& levels, int level
   cv::Mat disc = cv::Mat::zeros(area.size(), CV_8U);
   cv::fillPoly(disc, std::vector<std::vector<cv::Point>>{ polygon }, 255, cv::LINE_8, 0, -area.tl());
   const int step = std::max(1, int(std::sqrt(double(area.area()) / PixelsLookedAt)));
+  if (step == 1)
+  {
+    // Pixels on the edges are mixtures, and of a small ball they are many.
+    const cv::Mat cross = cv::getStructuringElement(cv::MORPH_CROSS, { 3, 3 });
+    cv::erode(disc, disc, cross, { -1, -1 }, 1, cv::BORDER_CONSTANT, cv::Scalar::all(0));
+  }
   double total = 0, highlights = 0;
   std::vector<double> saturations;
   for (int row = 0; row < area.height; row += step)

@@ -26,8 +26,7 @@ bool FoundBall::isSameAs(const FoundBall& other) const
 
 bool FoundBall::isSameAs(const SphereCone& candidate) const
 {
-  const double apart = fit.cone.axis_Camera.cross(candidate.axis_Camera).norm();
-  return apart + std::abs(fit.cone.halfAngle - candidate.halfAngle) < AlreadyKnown * fit.cone.halfAngle;
+  return fit.cone.isCloseTo(candidate, AlreadyKnown);
 }
 
 bool FoundBall::contains(const cv::Rect& region) const

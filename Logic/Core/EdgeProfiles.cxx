@@ -43,24 +43,22 @@ Eigen::Vector3f EdgeSides::discriminant(float shadingInside) const
   return direction / direction.dot(across);
 }
 
-EdgeProfiles::EdgeProfiles(const LinearLightImage& image, const SphereCone::Outline& outline, double reachPx, double referencePx,
-  double stepPx, float shading)
-  : step_(stepPx)
-  , shading_(shading)
-  , reach_(reachPx)
-  , reference_(referencePx)
-  , half_(int(std::ceil((reachPx + referencePx + 2 * StretchPx) / stepPx)))
+EdgeProfiles::EdgeProfiles(const LinearLightImage& image, const SphereCone::Outline& outline, const EdgeSampling& sampling)
+  : step_(sampling.stepPx)
+  , shading_(sampling.shading)
+  , reach_(sampling.reachPx)
+  , reference_(sampling.referencePx)
+  , half_(int(std::ceil(sampling.extentPx / sampling.stepPx)))
   , isUsable_(outline.points_Image.size())
   , light_(outline.points_Image.size() * std::size_t(2 * half_ + 1))
 {
   for (std::size_t i = 0; i < isUsable_.size(); ++i)
   {
-    const Eigen::Vector2d &point = outline.points_Image[i], along = stepPx * outline.normals_Image[i];
+    const Eigen::Vector2d &point = outline.points_Image[i], along = step_ * outline.normals_Image[i];
     isUsable_[i] = image.inside(point + half_ * along) && image.inside(point - half_ * along);
-    for (int k = -half_; k <= half_ && isUsable_[i]; ++k)
+    if (isUsable_[i])
     {
-      const Eigen::Vector2d at = point + k * along;
-      light(i)[k + half_] = image.at(at.x(), at.y());
+      image.along(point - half_ * along, along, 2 * half_ + 1, light(i));
     }
   }
 }
@@ -128,7 +126,7 @@ bool EdgeProfiles::byMatching(std::size_t i, const EdgeSides& sides, double blur
   const double inside = noiseVariance(sides.inside, direction), outside = noiseVariance(sides.outside, direction);
   for (int round = 0; round < MatchingRounds; ++round)
   {
-    const int first = index((place - 3 * blur) / step_), last = index((place + 3 * blur) / step_);
+    const int first = index((place - BlursOfTail * blur) / step_), last = index((place + BlursOfTail * blur) / step_);
     double sum = 0, weight = 0;
     for (int k = first; k <= last; ++k)
     {

@@ -80,6 +80,16 @@ struct EdgeStep
   double blur = 0;
 };
 
+/// How the light along a normal is read.
+struct EdgeSampling
+{
+  double reachPx = 0;      ///< how far from the outline an edge is looked for
+  double referencePx = 0;  ///< the stretches whose light counts as that of either side start so far from the edge
+  double extentPx = 0;     ///< how far from the outline light is read
+  double stepPx = 0.5;     ///< between samples
+  float shading = 0;       ///< how much the ball's light varies along its own colour, as a share of itself
+};
+
 /// The light along the normals of an outline, and where on them the edge is. Internal to the detection.
 ///
 /// A normal's samples are numbered from the inside; places on it are in px from the outline, outwards positive.
@@ -90,13 +100,10 @@ public:
   static constexpr double StretchPx = 1.5;
   /// The blurred step that is fitted is never sharper than this (px): bilinear sampling alone blurs that much.
   static constexpr double SharpestPx = 0.35;
+  /// The step goes on for so many blurs to either side.
+  static constexpr double BlursOfTail = 3;
 
-  /// @param reachPx how far from the outline an edge is looked for
-  /// @param referencePx the stretches whose light counts as that of either side start so far from the edge
-  /// @param stepPx between samples
-  /// @param shading how much the ball's light varies along its own colour, as a share of itself
-  EdgeProfiles(const LinearLightImage& image, const SphereCone::Outline& outline, double reachPx, double referencePx, double stepPx,
-    float shading);
+  EdgeProfiles(const LinearLightImage& image, const SphereCone::Outline& outline, const EdgeSampling& sampling);
 
   std::size_t count() const { return isUsable_.size(); }
   bool isUsable(std::size_t i) const { return isUsable_[i]; }

@@ -3,6 +3,8 @@
 #include "EvenLightFit.h"
 
 #include "EdgeProfiles.h"
+#include "EvenLightModel.h"
+#include "OutlineHiding.h"
 #include "OutlinePixels.h"
 #include "OutlineSide.h"
 
@@ -19,25 +21,22 @@ namespace handeye
 namespace
 {
 
-/// The stretches that the light on either side is averaged over start this many blurs from the outline, and are so wide (px).
-constexpr double BlursToStretch = 3;
-constexpr double StretchPx = 4;
-/// Deeper inside than this share of the radius there is no outline.
-constexpr double DeepestShare = 0.9;
-/// Pixels so many blurs from the edge say whether it is one; pixels so many blurs from it have a say in where it is.
-constexpr float BlursOfEdge = 2.5F;
-constexpr float BlursThatCount = 3;
-constexpr std::size_t FewestNormals = 12;
-constexpr int Rounds = 4;
-/// Squares of differences in units of the noise' variance: of normals that have what the model says, all across and near the
-/// edge, and
+/// Pixels so many blurs from an edge say whether it is one; pixels so many blurs from it have a say in where it is.
+constexpr double BlursOfEdge = 2.5;
+constexpr double BlursThatCount = 3;
+constexpr std::size_t FewestNormals = 8;
+constexpr int Rounds = 5;
+constexpr int RoundsOfHidingEdges = 3;
+/// Squares of differences in units of the noise' variance: of normals that have what the model says, all across and near the edge, and
 /// of a pixel that counts.
 constexpr float LargestOfNormal = 2;
 constexpr float LargestOfEdge = 4;
 constexpr float LargestOfPixel = 36;
+/// Of full light's encoded value: the blur is a Gaussian's only to so much, however little noise there is.
+constexpr float LeastNoise = 2.5F / 255;
 /// Normals beside such a one are left out, too.
 constexpr int BesideWrong = 1;
-/// At least so many of the normals that there is light for have what the model says.
+/// The noise is that of the best of the normals that are trusted, so many of them.
 constexpr double CleanShare = 0.3;
 /// Of the change of the light between the nearer and the further half of a stretch.
 constexpr float LargestChange = 3;
@@ -47,6 +46,39 @@ constexpr float LargestNoise = 4 / 255.0F;
 constexpr double LeastGood = 0.7;
 /// A fit that ends further than this from where it started has followed something else.
 constexpr double LargestMovePx = 1;
+/// What hides a part may reach into the stretches of the normals at the ends of a seen part: a third of it, at most so many px, is not
+/// trusted at first.
+constexpr double LargestEndPx = 8;
+/// How well a hiding edge is known before (px, rad), so that the equations can be solved.
+constexpr double EdgeSigmaPx = 2;
+constexpr double EdgeSigmaTurn = 0.7;
+
+/// The supported normals without the ends of each stretch of them.
+std::vector<char> trusted(const SphereCone::Outline& outline, const EvenLightStart& start, double spacingPx)
+{
+  const std::size_t count = outline.points_Image.size();
+  std::vector<char> isSupported(count, 0);
+  for (const std::size_t index : start.support)
+  {
+    isSupported[index] = 1;
+  }
+  // One normal that was not found is no end.
+  std::vector<char> flags = isSupported;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    flags[i] = char(isSupported[i] | (isSupported[(i + 1) % count] & isSupported[(i + count - 1) % count]));
+  }
+  for (const OutlineRun& run : runsOf(flags))
+  {
+    const int end = std::min(run.count / 3, int(LargestEndPx / spacingPx));
+    for (int k = 0; k < end; ++k)
+    {
+      isSupported[std::size_t(run.first + k) % count] = 0;
+      isSupported[std::size_t(run.first + run.count - 1 - k) % count] = 0;
+    }
+  }
+  return isSupported;
+}
 
 /// The fit to the pixels, round by round.
 class EvenLightFitter
@@ -54,69 +86,90 @@ class EvenLightFitter
 public:
   EvenLightFitter(const LinearLightImage& light, const SphereCone::Outline& outline, const EvenLightStart& start)
     : outline_(outline)
-    , start_(start.step)
-    , step_(start.step)
-    , blur_(std::max(start.blurPx, EdgeProfiles::SharpestPx))
-    , inside_(outline.points_Image.size())
-    , outside_(outline.points_Image.size())
-    , isEven_(outline.points_Image.size(), 0)
-    , support_(start.support.size())
+    , start_(start)
+    , startBlurPx_(std::max(start.blurPx, EdgeProfiles::SharpestPx))
+    , model_(outline, start.radiusPx, startBlurPx_)
+    , isTrusted_(trusted(outline, start, model_.spacingPx()))
+    , pixels_(pixelsAlongOutline(light, outline, start.radiusPx, model_.deepestPx(), model_.furthestPx()))
   {
-    for (const std::size_t index : start.support)
-    {
-      isEven_[index] = 1;
-    }
-    const double near = BlursToStretch * blur_, far = near + StretchPx;
-    const double deepest = std::min(far, DeepestShare * start.radiusPx);
-    pixels_ = pixelsAlongOutline(light, outline, start.radiusPx, deepest, far);
-    for (const OutlinePixel& pixel : pixels_)
-    {
-      const double offset = double(pixel.offsetPx) - shift(pixel.index);
-      if (offset < -near)
-      {
-        inside_.add(pixel.index, offset > -(near + deepest) / 2, pixel.light);
-      }
-      else if (offset > near)
-      {
-        outside_.add(pixel.index, offset < (near + far) / 2, pixel.light);
-      }
-    }
   }
 
-  std::optional<Eigen::Vector3d> fit()
+  std::optional<EvenLightResult> fit()
   {
-    average();
-    noise_ = LargestNoise * LargestNoise;
-    if (!isEven())
+    if (!look({}))
     {
       return std::nullopt;
     }
-    for (int round = 0; round < Rounds; ++round)
+    std::vector<HidingEdge> edges =
+      findHidingEdges({ outline_, pixels_, model_.inside(), model_.outside(), isEdge_, model_.nearPx(), noise_ });
+    for (;;)
     {
-      if (!judgeNormals())
+      // What turns out not to be a straight edge is left out, and all is done again.
+      const bool isFitted = fitWith(edges);
+      std::vector<HidingEdge> right;
+      for (std::size_t i = 0; i < edges.size() && isFitted; ++i)
       {
-        return std::nullopt;
+        if (isRight(int(i)))
+        {
+          right.push_back(edges[i]);
+        }
       }
-      average();
-      if (!isEven())
+      if (right.size() == edges.size())
       {
-        return std::nullopt;
+        return isFitted ? std::optional(result()) : std::nullopt;
       }
-      inside_.gather(noise_, isEven_);
-      outside_.gather(noise_, isEven_);
-      if (!move())
-      {
-        return std::nullopt;
-      }
+      edges = right;
     }
-    const auto good = std::count(isEdge_.begin(), isEdge_.end(), char(1));
-    const bool isRight = double(good) >= LeastGood * double(support_) && movedPx() <= LargestMovePx;
-    return isRight ? std::optional(step_) : std::nullopt;
   }
 
 private:
-  double shift(std::size_t normal) const { return outline_.rates[normal].dot(step_); }
-  bool isKnown(std::size_t normal) const { return inside_.isKnown(normal) && outside_.isKnown(normal); }
+  /// A round without a step.
+  bool look(const std::vector<HidingEdge>& edges)
+  {
+    model_.place(start_.step, startBlurPx_, edges);
+    isEven_ = isTrusted_;
+    noise_ = LargestNoise * LargestNoise;
+    model_.collect(pixels_);
+    model_.average(isEven_);
+    return isEven() && judge();
+  }
+
+  bool fitWith(const std::vector<HidingEdge>& edges)
+  {
+    if (!look(edges))
+    {
+      return false;
+    }
+    // The hiding edges alone first: they are known to a px only.
+    for (int round = 0; round < RoundsOfHidingEdges && !edges.empty(); ++round)
+    {
+      if (!move(false))
+      {
+        return false;
+      }
+    }
+    for (int round = 0; round < Rounds; ++round)
+    {
+      model_.collect(pixels_);
+      model_.average(isEven_);
+      if (!judge() || !move(true))
+      {
+        return false;
+      }
+    }
+    const auto good = std::count(isEdge_.begin(), isEdge_.end(), char(1));
+    return double(good) >= LeastGood * double(start_.support.size()) && movedPx() <= LargestMovePx;
+  }
+
+  EvenLightResult result() const
+  {
+    double seen = 0;
+    for (std::size_t i = 0; i < isEdge_.size(); ++i)
+    {
+      seen += isEdge_[i] != 0 && !model_.isHidden(i) ? 1 : 0;
+    }
+    return { model_.step(), covariance_, seen / double(isEdge_.size()) };
+  }
 
   /// From where the fit started, at most along the outline.
   double movedPx() const
@@ -124,63 +177,35 @@ private:
     double most = 0;
     for (const Eigen::Vector3d& rate : outline_.rates)
     {
-      most = std::max(most, std::abs(rate.dot(step_ - start_)));
+      most = std::max(most, std::abs(rate.dot(model_.step() - start_.step)));
     }
     return most;
   }
 
   /// The scatter about the model is that of noise, and the light on either side changes by no more.
-  bool isEven() const
-  {
-    return noise_ <= LargestNoise * LargestNoise && std::max(inside_.change(), outside_.change()) < double(LargestChange * noise_);
-  }
+  bool isEven() const { return noise_ <= LargestNoise * LargestNoise && model_.change() < double(LargestChange * noise_); }
 
-  void average()
-  {
-    inside_.average(isEven_);
-    outside_.average(isEven_);
-  }
+  /// That differences are judged by.
+  float tolerated() const { return std::max(noise_, LeastNoise * LeastNoise); }
 
-  /// What a pixel should be, and is.
-  struct Difference
+  /// Finds the noise, the normals across which there is something else than the ball and what is around it (near the edge, or
+  /// anywhere), and the light of the others. @return false where the light is not even.
+  bool judge()
   {
-    Eigen::Vector3f contrast;    ///< in units of the noise of full slope
-    Eigen::Vector3f difference;  ///< in the same
-    float x;                     ///< of the pixel, inwards from the outline, in blurs
-    float density;               ///< of the bell there
-    float square() const { return difference.squaredNorm(); }
-  };
-
-  Difference differenceOf(const OutlinePixel& pixel) const
-  {
-    const std::size_t i = pixel.index;
-    const double x = (shift(i) - double(pixel.offsetPx)) / blur_;
-    const Bell::Value bell = Bell::at(std::clamp(x, -Bell::Reach, Bell::Reach));
-    const float share = float(bell.integral);
-    const Eigen::Vector3f across = inside_.level(i) - outside_.level(i), expected = outside_.level(i) + share * across;
-    const Eigen::Array3f noise = (outside_.variance(i) + share * (inside_.variance(i) - outside_.variance(i))).array().rsqrt();
-    return { (across.array() * noise).matrix(), ((pixel.light - expected).array() * noise).matrix(), float(x),
-      std::abs(x) < Bell::Reach ? float(bell.density) : 0 };
-  }
-
-  /// Finds the noise, and the normals across which there is something else than the ball and what is around it: near the edge, or
-  /// anywhere.
-  bool judgeNormals()
-  {
-    OutlineScatter everywhere(isEven_.size()), nearEdge(isEven_.size());
+    OutlineScatter everywhere(isTrusted_.size()), nearEdge(isTrusted_.size());
     for (const OutlinePixel& pixel : pixels_)
     {
-      if (isKnown(pixel.index))
+      const PixelDifference difference = model_.differenceOf(pixel);
+      if (difference.isCounted)
       {
-        const Difference difference = differenceOf(pixel);
         everywhere.add(pixel.index, difference.square());
-        if (std::abs(difference.x) < BlursOfEdge)
+        if (difference.isWithin(BlursOfEdge))
         {
           nearEdge.add(pixel.index, difference.square());
         }
       }
     }
-    std::vector<double> known = everywhere.shares();
+    std::vector<double> known = everywhere.shares(isTrusted_);
     if (known.size() < FewestNormals)
     {
       return false;
@@ -188,60 +213,90 @@ private:
     const auto nth = known.begin() + std::ptrdiff_t(CleanShare * double(known.size()));
     std::nth_element(known.begin(), nth, known.end());
     noise_ = float(*nth);
-    isEven_ = everywhere.areBelow(LargestOfNormal * noise_, BesideWrong);
-    isEdge_ = nearEdge.areBelow(LargestOfEdge * noise_, 0);
-    return true;
-  }
-
-  /// A step of Gauss and Newton.
-  bool move()
-  {
-    Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
-    Eigen::Vector4d right = Eigen::Vector4d::Zero();
-    for (const OutlinePixel& pixel : pixels_)
-    {
-      if (!isEdge_[pixel.index] || !isKnown(pixel.index))
-      {
-        continue;
-      }
-      const Difference difference = differenceOf(pixel);
-      const float square = difference.square() / (LargestOfPixel * noise_);
-      if (std::abs(difference.x) >= BlursThatCount || square >= 1)
-      {
-        continue;
-      }
-      const double weight = double((1 - square) * (1 - square));
-      Eigen::Vector4d rate;
-      rate << outline_.rates[pixel.index], -double(difference.x);
-      rate *= double(difference.density) / blur_;
-      information += weight * double(difference.contrast.squaredNorm()) * rate * rate.transpose();
-      right += weight * double(difference.contrast.dot(difference.difference)) * rate;
-    }
-    const Eigen::Vector4d moved = information.ldlt().solve(right);
-    if (!moved.allFinite())
+    isEven_ = everywhere.areBelow(LargestOfNormal * tolerated(), BesideWrong);
+    isEdge_ = nearEdge.areBelow(LargestOfEdge * tolerated(), 0);
+    model_.average(isEven_);
+    if (!isEven())
     {
       return false;
     }
-    step_ += moved.head<3>();
-    blur_ = std::clamp(blur_ + moved[3], 0.7 * blur_, 1.4 * blur_);
+    model_.gather(noise_, isEven_);
+    return true;
+  }
+
+  /// Whether the pixels near a hiding edge are what the model says.
+  bool isRight(int edge) const
+  {
+    double sum = 0, count = 0;
+    for (const OutlinePixel& pixel : pixels_)
+    {
+      const PixelDifference difference = model_.differenceOf(pixel);
+      if (difference.isCounted && difference.edge == edge)
+      {
+        sum += double(difference.square());
+        count += 3;
+      }
+    }
+    return count > 0 && sum / count <= double(LargestOfEdge * tolerated());
+  }
+
+  /// A step of Gauss and Newton: of all, or of the hiding edges alone.
+  bool move(bool isOfAll)
+  {
+    using Model = EvenLightModel;
+    const int count = model_.parameterCount();
+    Model::Matrix information = Model::Matrix::Zero(count, count);
+    Model::Vector right = Model::Vector::Zero(count);
+    for (int i = Model::OfOutline; i < count; i += Model::OfEdge)
+    {
+      information(i, i) = double(noise_) / (EdgeSigmaPx * EdgeSigmaPx);
+      information(i + 1, i + 1) = double(noise_) / (EdgeSigmaTurn * EdgeSigmaTurn);
+    }
+    for (const OutlinePixel& pixel : pixels_)
+    {
+      const PixelDifference difference = model_.differenceOf(pixel);
+      const float square = isOfAll ? difference.square() / (LargestOfPixel * tolerated()) : 0;
+      if (difference.isCounted && (isEdge_[pixel.index] != 0 || !isOfAll) && difference.isWithin(BlursThatCount) && square < 1)
+      {
+        model_.add(pixel, difference, double((1 - square) * (1 - square)), information, right);
+      }
+    }
+    Model::Vector by = Model::Vector::Zero(count);
+    if (isOfAll)
+    {
+      const Model::Matrix inverse = information.inverse();
+      covariance_ = double(noise_) * inverse.topLeftCorner<3, 3>();
+      by = inverse * right;
+    }
+    else
+    {
+      const int ofEdges = count - Model::OfOutline;
+      const Model::Matrix alone = information.bottomRightCorner(ofEdges, ofEdges);
+      by.tail(ofEdges) = alone.ldlt().solve(right.tail(ofEdges));
+    }
+    if (!by.allFinite())
+    {
+      return false;
+    }
+    model_.move(by);
     return true;
   }
 
   const SphereCone::Outline& outline_;
-  Eigen::Vector3d start_;
-  Eigen::Vector3d step_;
-  double blur_;
-  OutlineSide inside_, outside_;
-  std::vector<char> isEven_;  ///< the light across the normal is the model's
-  std::vector<char> isEdge_;  ///< near the edge it is
-  std::size_t support_;
+  const EvenLightStart& start_;
+  double startBlurPx_;
+  EvenLightModel model_;
+  std::vector<char> isTrusted_;  ///< normals that are even for certain, if any are
+  std::vector<char> isEven_;     ///< the light across the normal is the model's
+  std::vector<char> isEdge_;     ///< near the edge it is
   std::vector<OutlinePixel> pixels_;
   float noise_ = 0;  ///< variance of the encoded value
+  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity();
 };
 
 }  // namespace
 
-std::optional<Eigen::Vector3d> fitInEvenLight(
+std::optional<EvenLightResult> fitInEvenLight(
   const LinearLightImage& light, const SphereCone::Outline& outline, const EvenLightStart& start)
 {
   return EvenLightFitter(light, outline, start).fit();

@@ -41,25 +41,34 @@ LinearLightImage::LinearLightImage(const cv::Mat& image)
 {
 }
 
-template<typename Pixel> Eigen::Vector3f LinearLightImage::interpolate(double x, double y) const
+template<typename Pixel>
+void LinearLightImage::interpolate(
+  const Eigen::Vector2d& first, const Eigen::Vector2d& step, int count, Eigen::Vector3f* light) const
 {
-  const int column = int(x), row = int(y), channels = image_.channels();
-  const float fx = float(x - column), fy = float(y - row);
-  const Pixel* upper = image_.ptr<Pixel>(row) + column * channels;
-  const Pixel* lower = image_.ptr<Pixel>(row + 1) + column * channels;
-  Eigen::Vector3f light;
-  for (int c = 0; c < 3; ++c)
+  const int channels = image_.channels();
+  const uchar* const data = image_.data;
+  const std::size_t rowBytes = image_.step[0];
+  for (int i = 0; i < count; ++i)
   {
-    const float top = table_[upper[c]] * (1 - fx) + table_[upper[c + channels]] * fx;
-    const float bottom = table_[lower[c]] * (1 - fx) + table_[lower[c + channels]] * fx;
-    light[c] = top * (1 - fy) + bottom * fy;
+    const double x = first.x() + i * step.x(), y = first.y() + i * step.y();
+    const int column = int(x), row = int(y);
+    const float fx = float(x - column), fy = float(y - row);
+    const uchar* const at = data + std::size_t(row) * rowBytes + std::size_t(column * channels) * sizeof(Pixel);
+    const auto* const upper = reinterpret_cast<const Pixel*>(at);
+    const auto* const lower = reinterpret_cast<const Pixel*>(at + rowBytes);
+    for (int c = 0; c < 3; ++c)
+    {
+      const float top = table_[upper[c]] + fx * (table_[upper[c + channels]] - table_[upper[c]]);
+      const float bottom = table_[lower[c]] + fx * (table_[lower[c + channels]] - table_[lower[c]]);
+      light[i][c] = top + fy * (bottom - top);
+    }
   }
-  return light;
 }
 
-Eigen::Vector3f LinearLightImage::at(double x, double y) const
+void LinearLightImage::along(
+  const Eigen::Vector2d& first, const Eigen::Vector2d& step, int count, Eigen::Vector3f* light) const
 {
-  return image_.depth() == CV_16U ? interpolate<ushort>(x, y) : interpolate<uchar>(x, y);
+  image_.depth() == CV_16U ? interpolate<ushort>(first, step, count, light) : interpolate<uchar>(first, step, count, light);
 }
 
 Eigen::Vector3f LinearLightImage::pixel(int column, int row) const

@@ -18,12 +18,15 @@ public:
   /// @param image 3 or 4 channels, 8 or 16 bit; not copied, must outlive this object
   explicit LinearLightImage(const cv::Mat& image);
 
-  /// The light of the first three channels (0 to 1) at a place between pixels, bilinear; the place must be inside().
-  Eigen::Vector3f at(double x, double y) const;
+  /// Whether there is light at a place between pixels.
   bool inside(const Eigen::Vector2d& point_Image) const
   {
     return point_Image.x() >= 0 && point_Image.y() >= 0 && point_Image.x() < image_.cols - 1 && point_Image.y() < image_.rows - 1;
   }
+
+  /// The light at `count` places that are `step` px apart, the first and the last of which must be inside(): the
+  /// first three channels (0 to 1), bilinear.
+  void along(const Eigen::Vector2d& first, const Eigen::Vector2d& step, int count, Eigen::Vector3f* light) const;
 
   /// The light of a pixel, which must be one of the image's.
   Eigen::Vector3f pixel(int column, int row) const;
@@ -34,7 +37,8 @@ public:
   static float slope(float light);
 
 private:
-  template<typename Pixel> Eigen::Vector3f interpolate(double x, double y) const;
+  template<typename Pixel>
+  void interpolate(const Eigen::Vector2d& first, const Eigen::Vector2d& step, int count, Eigen::Vector3f* light) const;
 
   const cv::Mat& image_;
   const float* table_;  ///< pixel value to linear light

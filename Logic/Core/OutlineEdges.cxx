@@ -148,8 +148,12 @@ OutlineEdges findOutlineEdges(const LinearLightImage& image, const SphereCone::O
   const double reference =
     std::min(std::clamp(BlursToReference * blur, NearestReferencePx, FurthestReferencePx), 0.4 * search.radiusPx);
   const double reach = std::min(search.reachPx, 0.6 * search.radiusPx);
-  const EdgeProfiles profiles(
-    image, expected, reach, reference, isRough ? CoarseStepPx : FineStepPx, isRough ? ShadingRough : ShadingInside);
+  // Light is compared about the edge where that is not known, else about the outline; the step that is fitted has tails.
+  const double compared = reference + 2 * EdgeProfiles::StretchPx;
+  const double extent =
+    isRough ? reach + compared : std::max(compared, reach + EdgeProfiles::BlursOfTail * std::max(blur, EdgeProfiles::SharpestPx));
+  const EdgeProfiles profiles(image, expected,
+    { reach, reference, extent, isRough ? CoarseStepPx : FineStepPx, isRough ? ShadingRough : ShadingInside });
   std::vector<double> blurs;
   OutlineEdges result = isRough ? findRoughly(profiles, reach, blurs) : findFinely(profiles, search, reference, blurs);
   result.blurPx = blurs.empty() ? 0 : median(blurs);
@@ -159,7 +163,8 @@ OutlineEdges findOutlineEdges(const LinearLightImage& image, const SphereCone::O
 EdgeWidths measureEdgeWidths(const LinearLightImage& image, const SphereCone::Outline& outline, double radiusPx)
 {
   const double reference = std::min(WidthReferencePx, 0.4 * radiusPx);
-  const EdgeProfiles profiles(image, outline, 0, reference, CoarseStepPx, ShadingRough);
+  const EdgeProfiles profiles(
+    image, outline, { 0, reference, reference + 2 * EdgeProfiles::StretchPx, CoarseStepPx, ShadingRough });
   using Waves = Eigen::Matrix<double, 5, 1>;
   Eigen::Matrix<double, 5, 5> matrix = Eigen::Matrix<double, 5, 5>::Zero();
   Waves right = Waves::Zero();

@@ -47,6 +47,9 @@ constexpr double SupportPx = 0.75;
 /// A scatter (px) of the edge points above this on the way is not the outline of a ball.
 constexpr double LargestSigmaPx = 2.5;
 constexpr int Rounds = 10;
+/// An outline that was fitted to edges that scatter by sigma is good to so many sigmas, and not better than this (px).
+constexpr double StartSigmas = 3;
+constexpr double StartSigmaPx = 0.2;
 constexpr double TukeyConstant = 4.685;
 /// Edge points are never better than this (px): below it the weights would chase rounding.
 constexpr double SmallestSigmaPx = 0.01;
@@ -57,7 +60,8 @@ constexpr int LongestWaves = 3;
 constexpr double ShadingToWave = 0.65;
 /// However even the light is, the lens model and the gamma curve are not known better.
 constexpr double LeastWavePx = 0.025;
-/// Light whose change on either side may move the edges by more than this share of their blur is not even.
+/// Light whose change on either side may move more than two thirds of the edges by more than this share of their blur is not even: what
+/// hides a part of a small ball is within that light.
 constexpr double LargestEvenShading = 0.08;
 
 double tukey(double residual, double sigma)
@@ -70,12 +74,17 @@ double tukey(double residual, double sigma)
 class OutlineStep
 {
 public:
-  OutlineStep(const SphereCone::Outline& outline, const std::vector<OutlineEdge>& edges)
+  /// @param startSigmaPx how well the outline is known: edges far from it have no say at first; 0 where it is not
+  OutlineStep(const SphereCone::Outline& outline, const std::vector<OutlineEdge>& edges, double startSigmaPx)
     : outline_(outline)
     , edges_(edges)
     , residuals_(edges.size())
     , weights_(edges.size(), 1)
   {
+    for (std::size_t i = 0; i < edges.size() && startSigmaPx > 0; ++i)
+    {
+      weights_[i] = tukey(edges[i].offsetPx, startSigmaPx);
+    }
   }
 
   bool solve()
@@ -238,15 +247,18 @@ private:
     {
       shading.push_back(edge.shadingPx);
     }
-    if (softnessPx_ > 0 || median(shading) > LargestEvenShading * fit_.blurPx)
+    const auto third = shading.begin() + std::ptrdiff_t(shading.size() / 3);
+    std::nth_element(shading.begin(), third, shading.end());
+    if (softnessPx_ > 0 || *third > LargestEvenShading * fit_.blurPx)
     {
       return;
     }
-    const std::optional<Eigen::Vector3d> step =
+    const std::optional<EvenLightResult> result =
       fitInEvenLight(light_, outline_, { step_, supportIndices_, radiusPx(), fit_.blurPx });
-    if (step)
+    if (result)
     {
-      fit_.cone = lookedAround_.moved(*step);
+      fit_.cone = lookedAround_.moved(result->step);
+      fit_.visibleShare = std::max(fit_.visibleShare, result->visibleShare);
     }
   }
 
@@ -273,7 +285,7 @@ private:
 
   bool fitOffsets()
   {
-    OutlineStep step(outline_, found_.edges);
+    OutlineStep step(outline_, found_.edges, fit_.sigmaPx > 0 ? std::max(StartSigmas * fit_.sigmaPx, StartSigmaPx) : 0);
     if (!step.solve() || step.sigmaPx() > LargestSigmaPx)
     {
       return false;

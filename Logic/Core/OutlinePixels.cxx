@@ -129,7 +129,7 @@ std::vector<OutlinePixel> pixelsAlongOutline(
       const double offset = across + along * along / (2 * std::max(1.0, radiusPx + across));
       if (offset >= -insidePx && offset <= outsidePx)
       {
-        pixels.push_back({ i, float(offset), light.pixel(column, row) });
+        pixels.push_back({ i, place.cast<float>(), float(offset), light.pixel(column, row) });
       }
     }
   }

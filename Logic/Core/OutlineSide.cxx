@@ -20,13 +20,6 @@ constexpr int NormalsToEitherSide = 8;
 constexpr float SameLight = 32;
 constexpr std::size_t MostLights = 8;
 
-/// Of a channel's light by the noise of its encoded value.
-Eigen::Vector3f noiseOf(const Eigen::Vector3f& light)
-{
-  const Eigen::Vector3f slopes = light.unaryExpr([](float value) { return LinearLightImage::slope(value); });
-  return slopes.cwiseAbs2();
-}
-
 /// Sums over the good normals within NormalsToEitherSide of each, all around.
 std::vector<LightSum> sumAround(const std::vector<LightSum>& sums, const std::vector<char>& isGood)
 {
@@ -52,6 +45,38 @@ std::vector<LightSum> sumAround(const std::vector<LightSum>& sums, const std::ve
 
 }  // namespace
 
+Eigen::Vector3f lightVariance(const Eigen::Vector3f& light)
+{
+  const Eigen::Vector3f slopes = light.unaryExpr([](float value) { return LinearLightImage::slope(value); });
+  return slopes.cwiseAbs2();
+}
+
+std::vector<OutlineRun> runsOf(const std::vector<char>& flags)
+{
+  std::vector<OutlineRun> runs;
+  const std::size_t count = flags.size();
+  const auto first = std::size_t(std::find(flags.begin(), flags.end(), char(0)) - flags.begin());
+  for (std::size_t i = first; first < count && i < first + count; ++i)
+  {
+    if (flags[i % count] == 0)
+    {
+      continue;
+    }
+    if (flags[(i + count - 1) % count] == 0)
+    {
+      runs.push_back({ int(i), 0 });
+    }
+    ++runs.back().count;
+  }
+  return runs;
+}
+
+void OutlineSide::clear()
+{
+  near_.assign(near_.size(), {});
+  far_.assign(far_.size(), {});
+}
+
 void OutlineSide::average(const std::vector<char>& isGood)
 {
   changes_.clear();
@@ -60,25 +85,51 @@ void OutlineSide::average(const std::vector<char>& isGood)
   for (std::size_t i = 0; i < near_.size(); ++i)
   {
     const LightSum &near = nearSums[i], &far = farSums[i];
-    isKnown_[i] = near.count > 0 && far.count > 0;
+    isKnown_[i] = near.count + far.count > 0;
     if (isKnown_[i])
     {
       sums_[i] = near;
       sums_[i] += far;
       levels_[i] = sums_[i].mean();
-      variances_[i] = noiseOf(levels_[i]);
-      const Eigen::Vector3f change = near.mean() - far.mean();
-      if (isGood[i])
+      variances_[i] = lightVariance(levels_[i]);
+      if (isGood[i] && near.count > 0 && far.count > 0)
       {
+        const Eigen::Vector3f change = near.mean() - far.mean();
         changes_.push_back(double(change.cwiseAbs2().cwiseQuotient(variances_[i]).sum() / 3 / (1 / near.count + 1 / far.count)));
       }
     }
+  }
+  spread();
+}
+
+void OutlineSide::spread()
+{
+  const int count = int(isKnown_.size());
+  const std::vector<char> isOwn = isKnown_;
+  if (std::find(isOwn.begin(), isOwn.end(), char(1)) == isOwn.end())
+  {
+    return;
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    int apart = 0;
+    const auto at = [&](int k) { return std::size_t((i + k + count) % count); };
+    while (!isOwn[at(apart)] && !isOwn[at(-apart)])
+    {
+      ++apart;
+    }
+    const std::size_t from = isOwn[at(apart)] ? at(apart) : at(-apart), to = std::size_t(i);
+    sums_[to] = sums_[from];
+    levels_[to] = levels_[from];
+    variances_[to] = variances_[from];
+    isKnown_[to] = 1;
   }
 }
 
 double OutlineSide::change() const
 {
-  return changes_.empty() ? std::numeric_limits<double>::infinity() : median(changes_);
+  const bool isNowhere = std::find(isKnown_.begin(), isKnown_.end(), char(1)) == isKnown_.end();
+  return isNowhere ? std::numeric_limits<double>::infinity() : changes_.empty() ? 0 : median(changes_);
 }
 
 void OutlineSide::gather(float noiseVariance, const std::vector<char>& isGood)
@@ -121,7 +172,7 @@ void OutlineSide::gather(float noiseVariance, const std::vector<char>& isGood)
   {
     if (common.all.count > 0)
     {
-      const Eigen::Vector3f mean = common.all.mean(), noise = noiseOf(mean);
+      const Eigen::Vector3f mean = common.all.mean(), noise = lightVariance(mean);
       for (const std::size_t i : common.normals)
       {
         levels_[i] = mean;
@@ -131,12 +182,12 @@ void OutlineSide::gather(float noiseVariance, const std::vector<char>& isGood)
   }
 }
 
-std::vector<double> OutlineScatter::shares() const
+std::vector<double> OutlineScatter::shares(const std::vector<char>& isAskedFor) const
 {
   std::vector<double> result;
   for (std::size_t i = 0; i < counts_.size(); ++i)
   {
-    if (counts_[i] > 0)
+    if (isAskedFor[i] != 0 && counts_[i] > 0)
     {
       result.push_back(double(share(i)));
     }

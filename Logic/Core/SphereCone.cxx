@@ -238,6 +238,12 @@ SphereCone SphereCone::moved(const Eigen::Vector3d& step) const
   return { (axis_Camera + across() * step.head<2>()).normalized(), halfAngle + step.z() };
 }
 
+bool SphereCone::isCloseTo(const SphereCone& other, double share) const
+{
+  const double apart = axis_Camera.cross(other.axis_Camera).norm();
+  return apart + std::abs(halfAngle - other.halfAngle) < share * halfAngle;
+}
+
 SphereCone::Outline SphereCone::outline(const CameraModel& camera, int count) const
 {
   const Eigen::Matrix<double, 3, 2> directions = across();

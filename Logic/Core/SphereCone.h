@@ -37,6 +37,8 @@ struct SphereCone
 
   /// The cone with its axis tipped (rad) towards the directions of a turn of 0 and of pi / 2, and its half angle changed (rad).
   SphereCone moved(const Eigen::Vector3d& step) const;
+  /// Whether place and size differ by less than a share of the size.
+  bool isCloseTo(const SphereCone& other, double share) const;
   /// The directions of a turn of 0 and of pi / 2, as columns.
   Eigen::Matrix<double, 3, 2> across() const;
 };

@@ -285,6 +285,23 @@ TEST_P(BallConditions, OneBallMuchCloser_IsTheOneWhereTheWorkingRangeSaysSo)
   }
 }
 
+TEST_P(BallConditions, FarBallAmongManyLargerRedPatches_IsFound)
+{
+  for (const double radiusPx : { 9.0, 14.0 })
+  {
+    SCOPED_TRACE("radius " + std::to_string(int(radiusPx)) + " px");
+    const Place place = placeOf(0.52, 0.48, radiusPx);
+    ConditionScene picture = scene();
+    for (int i = 0; i < 14; ++i)
+    {
+      const Eigen::Vector2d center(60 + 85 * (i % 7), i < 7 ? 70 : 410), a(26, 4 + i % 3), b(-7, 22);
+      picture.polygon({ center + a + b, center + a - b, center - a - b, center - a + b }, BallRed * (i % 2 == 0 ? 1.0F : 0.7F));
+    }
+    const BallDetection found = detect(picture.add(place.ball).photograph());
+    expectFound(found, place, 0.3);
+  }
+}
+
 TEST_P(BallConditions, OneBallMoreThanHalfHidden_TheOtherIsTheOne)
 {
   const Place whole = placeOf(0.27, 0.45, 32), hidden = placeOf(0.73, 0.52, 32);
