@@ -49,6 +49,8 @@ constexpr double LargestMovePx = 1;
 /// What hides a part may reach into the stretches of the normals at the ends of a seen part: a third of it, at most so many px, is not
 /// trusted at first.
 constexpr double LargestEndPx = 8;
+/// Nothing is hidden where so much of the outline is supported.
+constexpr double Whole = 0.9;
 /// How well a hiding edge is known before (px, rad), so that the equations can be solved.
 constexpr double EdgeSigmaPx = 2;
 constexpr double EdgeSigmaTurn = 0.7;
@@ -123,13 +125,19 @@ public:
   }
 
 private:
+  void collect()
+  {
+    const bool isWhole = double(start_.support.size()) >= Whole * double(isTrusted_.size());
+    model_.collect(pixels_, isWhole || !model_.edges().empty() ? model_.deepestPx() : model_.shallowPx());
+  }
+
   /// A round without a step.
   bool look(const std::vector<HidingEdge>& edges)
   {
     model_.place(start_.step, startBlurPx_, edges);
     isEven_ = isTrusted_;
     noise_ = LargestNoise * LargestNoise;
-    model_.collect(pixels_);
+    collect();
     model_.average(isEven_);
     return isEven() && judge();
   }
@@ -150,7 +158,7 @@ private:
     }
     for (int round = 0; round < Rounds; ++round)
     {
-      model_.collect(pixels_);
+      collect();
       model_.average(isEven_);
       if (!judge() || !move(true))
       {

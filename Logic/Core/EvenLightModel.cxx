@@ -18,6 +18,8 @@ constexpr double BlursToStretch = 2.5;
 constexpr double StretchPx = 4;
 /// Deeper inside than this share of the radius there is no outline.
 constexpr double DeepestShare = 0.9;
+constexpr double ShallowShare = 0.6;
+constexpr double ShallowestPx = 1;
 /// The edge of what hides is straight for so many px to either side; and normals so many px from where the outline goes under may have
 /// pixels that it crosses.
 constexpr double StraightPx = 7;
@@ -43,12 +45,18 @@ EvenLightModel::EvenLightModel(const SphereCone::Outline& outline, double radius
   : outline_(outline)
   , nearPx_(BlursToStretch * blurPx)
   , deepestPx_(std::min(nearPx_ + StretchPx, DeepestShare * radiusPx))
+  , radiusPx_(radiusPx)
   , spacingPx_(2 * double(EIGEN_PI) * radiusPx / double(outline.points_Image.size()))
   , blurPx_(blurPx)
   , inside_(outline.points_Image.size())
   , outside_(outline.points_Image.size())
   , edgeOf_(outline.points_Image.size(), Free)
 {
+}
+
+double EvenLightModel::shallowPx() const
+{
+  return std::min(deepestPx_, std::max(nearPx_ + ShallowestPx, ShallowShare * radiusPx_));
 }
 
 double EvenLightModel::furthestPx() const
@@ -122,7 +130,7 @@ bool EvenLightModel::isHidden(std::size_t normal) const
   return index == Hidden || (index != Free && edges_[std::size_t(index)].beyondPx(outline_.points_Image[normal]) > 0);
 }
 
-void EvenLightModel::collect(const std::vector<OutlinePixel>& pixels)
+void EvenLightModel::collect(const std::vector<OutlinePixel>& pixels, double deepestPx)
 {
   inside_.clear();
   outside_.clear();
@@ -140,7 +148,10 @@ void EvenLightModel::collect(const std::vector<OutlinePixel>& pixels)
     }
     if (offset < 0)
     {
-      inside_.add(pixel.index, offset > -(nearPx_ + deepestPx_) / 2, pixel.light);
+      if (offset >= -deepestPx)
+      {
+        inside_.add(pixel.index, offset > -(nearPx_ + deepestPx) / 2, pixel.light);
+      }
     }
     else
     {

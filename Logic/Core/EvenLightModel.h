@@ -51,6 +51,8 @@ public:
   /// How far from the outline the light is that counts as that of either side, px.
   double nearPx() const { return nearPx_; }
   double deepestPx() const { return deepestPx_; }
+  /// How deep inside one may look where it is not known what hides a part: that may reach half way across the ball.
+  double shallowPx() const;
   double furthestPx() const;
   double spacingPx() const { return spacingPx_; }
 
@@ -61,8 +63,9 @@ public:
   int parameterCount() const { return OfOutline + OfEdge * int(edges_.size()); }
   void move(const Vector& by);
 
-  /// The light on either side from the pixels that are far from any edge; averaged over the normals that are good.
-  void collect(const std::vector<OutlinePixel>& pixels);
+  /// The light on either side from the pixels that are far from any edge, and inside no deeper than that (px).
+  void collect(const std::vector<OutlinePixel>& pixels, double deepestPx);
+  /// Averaged over the normals that are good.
   void average(const std::vector<char>& isGood);
   void gather(float noiseVariance, const std::vector<char>& isGood);
   /// The larger of the two sides' OutlineSide::change().
@@ -95,7 +98,7 @@ private:
   void compareWithThree(const OutlinePixel& pixel, PixelDifference& result) const;
 
   const SphereCone::Outline& outline_;
-  double nearPx_, deepestPx_, spacingPx_;
+  double nearPx_, deepestPx_, radiusPx_, spacingPx_;
   Eigen::Vector3d step_ = Eigen::Vector3d::Zero();
   double blurPx_;
   OutlineSide inside_, outside_;
