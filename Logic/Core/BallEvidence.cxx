@@ -35,6 +35,10 @@ constexpr double RimBesideFinger = 0.5;
 constexpr double SigmaBesideFingerPx = 0.25;
 constexpr double VisibleBesideFinger = 0.6;
 constexpr double RadiusBesideFingerPx = 12;
+/// Pixels on the edges are mixtures, and of a small ball they are many: where its outline is sharp, what it encloses is looked at without
+/// them. Of outlines that scatter more something else may be the cause.
+constexpr double SmallRadiusPx = 12;
+constexpr double SigmaOfSmallPx = 0.15;
 /// Along a line from the centre to a seen point of the outline the colour is looked at in these places, as shares of the way.
 constexpr double AlongRadius[] = { 0.5, 0.6, 0.7, 0.8, 0.9 };
 /// Of larger balls not every pixel is looked at, but about this many.
@@ -64,7 +68,9 @@ double saturation(const cv::Mat& image, const cv::Point& pixel)
                                  : of(image.ptr<uchar>(pixel.y) + pixel.x * image.channels());
 }
 
-Inside lookInside(const cv::Mat& image, const BallColorLevels& levels, int level, const std::vector<cv::Point>& polygon)
+/// @param isWithoutRim the pixels on the edges do not count
+Inside lookInside(
+  const cv::Mat& image, const BallColorLevels& levels, int level, const std::vector<cv::Point>& polygon, bool isWithoutRim)
 {
   const cv::Rect area = cv::boundingRect(polygon) & levels.window();
   Inside inside;
@@ -75,11 +81,9 @@ Inside lookInside(const cv::Mat& image, const BallColorLevels& levels, int level
   cv::Mat disc = cv::Mat::zeros(area.size(), CV_8U);
   cv::fillPoly(disc, std::vector<std::vector<cv::Point>>{ polygon }, 255, cv::LINE_8, 0, -area.tl());
   const int step = std::max(1, int(std::sqrt(double(area.area()) / PixelsLookedAt)));
-  if (step == 1)
+  if (isWithoutRim && step == 1)
   {
-    // Pixels on the edges are mixtures, and of a small ball they are many.
-    const cv::Mat cross = cv::getStructuringElement(cv::MORPH_CROSS, { 3, 3 });
-    cv::erode(disc, disc, cross, { -1, -1 }, 1, cv::BORDER_CONSTANT, cv::Scalar::all(0));
+    cv::erode(disc, disc, {}, { -1, -1 }, 1, cv::BORDER_CONSTANT, cv::Scalar::all(0));
   }
   double total = 0, highlights = 0;
   std::vector<double> saturations;
@@ -185,7 +189,8 @@ BallEvidence judgeOutline(const OutlineFit& fit, const cv::Mat& image, const Bal
   }
   evidence.radiusPx = std::sqrt(cv::contourArea(whole) / Pi);
   const Eigen::Vector2d center_Image = camera.project(fit.cone.axis_Camera).point_Image;
-  const Inside inside = lookInside(image, levels, level, seen);
+  const bool isSmallAndSharp = evidence.radiusPx < SmallRadiusPx && fit.sigmaPx <= SigmaOfSmallPx;
+  const Inside inside = lookInside(image, levels, level, seen, isSmallAndSharp);
   const double filled = std::min(1.0, inside.colored + inside.highlights);
   const double rim = rimFill(fit, levels, level, center_Image);
   const bool isBesideFinger = rim >= RimBesideFinger && filled >= LeastBehindFinger && fit.sigmaPx <= SigmaBesideFingerPx &&

@@ -32,6 +32,8 @@ constexpr int RoundsOfHidingEdges = 3;
 constexpr float LargestOfNormal = 2;
 constexpr float LargestOfEdge = 4;
 constexpr float LargestOfPixel = 36;
+/// Of the pixels where an outline goes under a hiding edge: where three lights meet the model is coarser.
+constexpr float LargestOfHiding = 8;
 /// Of full light's encoded value: the blur is a Gaussian's only to so much, however little noise there is.
 constexpr float LeastNoise = 2.5F / 255;
 /// Normals beside such a one are left out, too.
@@ -39,7 +41,9 @@ constexpr int BesideWrong = 1;
 /// The noise is that of the best of the normals that are trusted, so many of them.
 constexpr double CleanShare = 0.3;
 /// Of the change of the light between the nearer and the further half of a stretch.
-constexpr float LargestChange = 3;
+constexpr double LargestChange = 3;
+/// Twice as much where an outline has only so many normals: there are few independent ones among them.
+constexpr double FewNormals = 50;
 /// A larger scatter (of full light's encoded value) is not the noise of a camera alone.
 constexpr float LargestNoise = 4 / 255.0F;
 /// The light is not even where fewer normals than this share of those with a right edge have what the model says.
@@ -98,7 +102,7 @@ public:
 
   std::optional<EvenLightResult> fit()
   {
-    if (!look({}))
+    if (!look())
     {
       return std::nullopt;
     }
@@ -131,10 +135,10 @@ private:
     model_.collect(pixels_, isWhole || !model_.edges().empty() ? model_.deepestPx() : model_.shallowPx());
   }
 
-  /// A round without a step.
-  bool look(const std::vector<HidingEdge>& edges)
+  /// A round without a step, as if nothing were hidden.
+  bool look()
   {
-    model_.place(start_.step, startBlurPx_, edges);
+    model_.place(start_.step, startBlurPx_, {});
     isEven_ = isTrusted_;
     noise_ = LargestNoise * LargestNoise;
     collect();
@@ -144,11 +148,12 @@ private:
 
   bool fitWith(const std::vector<HidingEdge>& edges)
   {
-    if (!look(edges))
+    if (!look())
     {
       return false;
     }
-    // The hiding edges alone first: they are known to a px only.
+    // The hiding edges alone first, in the light that is known so far: they are good to a px only.
+    model_.place(start_.step, startBlurPx_, edges);
     for (int round = 0; round < RoundsOfHidingEdges && !edges.empty(); ++round)
     {
       if (!move(false))
@@ -191,7 +196,11 @@ private:
   }
 
   /// The scatter about the model is that of noise, and the light on either side changes by no more.
-  bool isEven() const { return noise_ <= LargestNoise * LargestNoise && model_.change() < double(LargestChange * noise_); }
+  bool isEven() const
+  {
+    const double largest = LargestChange * (1 + FewNormals / double(isTrusted_.size()));
+    return noise_ <= LargestNoise * LargestNoise && model_.change() < largest * double(tolerated());
+  }
 
   /// That differences are judged by.
   float tolerated() const { return std::max(noise_, LeastNoise * LeastNoise); }
@@ -245,7 +254,7 @@ private:
         count += 3;
       }
     }
-    return count > 0 && sum / count <= double(LargestOfEdge * tolerated());
+    return count > 0 && sum / count <= double(LargestOfHiding * tolerated());
   }
 
   /// A step of Gauss and Newton: of all, or of the hiding edges alone.

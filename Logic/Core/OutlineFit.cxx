@@ -29,10 +29,10 @@ struct Pass
 constexpr Pass FirstPass = { 6, 2, 64 };
 constexpr Pass SecondPass = { 3.5, 2, 96 };
 constexpr Pass FinePass = { 2.5, 1, 1600 };
-constexpr int FewestFinePasses = 2;
+constexpr int FewestFinePasses = 1;
 constexpr int MostFinePasses = 3;
 /// The outline is where it belongs when a pass moves it by no more than this (px).
-constexpr double SettledPx = 0.5;
+constexpr double SettledPx = 0.15;
 /// Edges blurred by more than this (standard deviation, px) hide how soft they are from references that are near.
 constexpr double SoftPx = 2.0;
 /// From the width between a quarter and three quarters of a blurred step to its standard deviation.
