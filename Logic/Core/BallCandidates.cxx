@@ -140,10 +140,7 @@ public:
 private:
   Eigen::Vector3d ray(std::size_t i) const { return { double(x_[i]), double(y_[i]), double(z_[i]) }; }
   double radiusPx(const SphereCone& cone) const { return focalPx_ * std::tan(cone.halfAngle); }
-  double supportPx(const SphereCone& cone) const
-  {
-    return std::clamp(SupportShare * radiusPx(cone), LeastSupportPx, SupportPx);
-  }
+  double supportPx(const SphereCone& cone) const { return std::clamp(SupportShare * radiusPx(cone), LeastSupportPx, SupportPx); }
 
   Candidate judge(const SphereCone& cone, double minimumRadiusPx) const
   {

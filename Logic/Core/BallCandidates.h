@@ -18,7 +18,7 @@ struct BallCandidates
   /// At most a dozen of the largest regions, the best supported first, then at most six of smaller ones that are round by themselves; the
   /// same ball may be there more than once.
   std::vector<SphereCone> cones;
-  cv::Rect around;                ///< px of the image: outside of it there is no region that is large enough
+  cv::Rect around;  ///< px of the image: outside of it there is no region that is large enough
 };
 
 /// Places in a colour mask where a ball may be: for each connected region the cones that best follow its border, whatever is

@@ -91,7 +91,8 @@ private:
       return;
     }
     Attempt& attempt = attemptAt(candidate);
-    if (!attempt.rough || !judgeOutline(*attempt.rough, image_, levels_, level, camera_, options_, LargestRoughSigmaPx).isPartOfBall)
+    if (!attempt.rough ||
+      !judgeOutline(*attempt.rough, image_, levels_, level, camera_, options_, LargestRoughSigmaPx).isPartOfBall)
     {
       return;
     }

@@ -181,7 +181,7 @@ private:
     {
       seen += isEdge_[i] != 0 && !model_.isHidden(i) ? 1 : 0;
     }
-    return { model_.step(), covariance_, seen / double(isEdge_.size()) };
+    return { model_.step(), seen / double(isEdge_.size()) };
   }
 
   /// From where the fit started, at most along the outline.
@@ -281,9 +281,7 @@ private:
     Model::Vector by = Model::Vector::Zero(count);
     if (isOfAll)
     {
-      const Model::Matrix inverse = information.inverse();
-      covariance_ = double(noise_) * inverse.topLeftCorner<3, 3>();
-      by = inverse * right;
+      by = information.ldlt().solve(right);
     }
     else
     {
@@ -308,7 +306,6 @@ private:
   std::vector<char> isEdge_;     ///< near the edge it is
   std::vector<OutlinePixel> pixels_;
   float noise_ = 0;  ///< variance of the encoded value
-  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity();
 };
 
 }  // namespace

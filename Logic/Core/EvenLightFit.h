@@ -25,9 +25,8 @@ struct EvenLightStart
 
 struct EvenLightResult
 {
-  Eigen::Vector3d step = Eigen::Vector3d::Zero();            ///< from the outline to the best fit, in place of the start's
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< of the step, by the pixels' scatter about the model
-  double visibleShare = 0;  ///< of the outline: where the pixels say that the ball ends there
+  Eigen::Vector3d step = Eigen::Vector3d::Zero();  ///< from the outline to the best fit, in place of the start's
+  double visibleShare = 0;                         ///< of the outline: where the pixels say that the ball ends there
 };
 
 /// Fits an outline to the pixels around it, where the light is even: the ball has one brightness along the outline's inside, and so has

@@ -79,8 +79,7 @@ void EvenLightModel::move(const Vector& by)
   for (std::size_t i = 0; i < edges_.size(); ++i)
   {
     const auto first = Eigen::Index(OfOutline + OfEdge * i);
-    edges_[i].move(
-      std::clamp(by[first], -LargestOffsetPx, LargestOffsetPx), std::clamp(by[first + 1], -LargestTurn, LargestTurn));
+    edges_[i].move(std::clamp(by[first], -LargestOffsetPx, LargestOffsetPx), std::clamp(by[first + 1], -LargestTurn, LargestTurn));
   }
 }
 
@@ -119,8 +118,7 @@ EvenLightModel::Hiding EvenLightModel::hidingOf(const OutlinePixel& pixel) const
   {
     return {};
   }
-  const bool isModelled =
-    (place - edge.pivot_Image).squaredNorm() <= StraightPx * StraightPx && beyondPx <= Bell::Reach * blurPx_;
+  const bool isModelled = (place - edge.pivot_Image).squaredNorm() <= StraightPx * StraightPx && beyondPx <= Bell::Reach * blurPx_;
   return { isModelled, isModelled ? index : -1, beyondPx };
 }
 
@@ -220,8 +218,8 @@ void EvenLightModel::compareWithThree(const OutlinePixel& pixel, PixelDifference
   const WedgeShare ball = shareOfWedge(result.inside, result.seen, outline_.normals_Image[i].dot(edge.normal_Image));
   const float seen = float(bell.integral), share = float(ball.share);
   const Eigen::Vector3f across = inside_.level(i) - outside_.level(i), behind = outside_.level(i) - edge.light;
-  const Eigen::Vector3f variance = edge.variance + seen * (outside_.variance(i) - edge.variance) +
-    share * (inside_.variance(i) - outside_.variance(i));
+  const Eigen::Vector3f variance =
+    edge.variance + seen * (outside_.variance(i) - edge.variance) + share * (inside_.variance(i) - outside_.variance(i));
   const Eigen::Array3f noise = variance.array().rsqrt();
   result.difference = ((pixel.light - edge.light - seen * behind - share * across).array() * noise).matrix();
   result.byInside = (float(ball.byInside) * across.array() * noise).matrix();

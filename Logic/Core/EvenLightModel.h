@@ -79,8 +79,7 @@ public:
   PixelDifference differenceOf(const OutlinePixel& pixel) const;
 
   /// Adds a pixel to the normal equations.
-  void add(
-    const OutlinePixel& pixel, const PixelDifference& difference, double weight, Matrix& information, Vector& right) const;
+  void add(const OutlinePixel& pixel, const PixelDifference& difference, double weight, Matrix& information, Vector& right) const;
 
 private:
   /// What a hiding edge makes of a pixel.

@@ -65,16 +65,14 @@ void LinearLightImage::interpolate(
   }
 }
 
-void LinearLightImage::along(
-  const Eigen::Vector2d& first, const Eigen::Vector2d& step, int count, Eigen::Vector3f* light) const
+void LinearLightImage::along(const Eigen::Vector2d& first, const Eigen::Vector2d& step, int count, Eigen::Vector3f* light) const
 {
   image_.depth() == CV_16U ? interpolate<ushort>(first, step, count, light) : interpolate<uchar>(first, step, count, light);
 }
 
 Eigen::Vector3f LinearLightImage::pixel(int column, int row) const
 {
-  const auto read = [&](const auto* values)
-  { return Eigen::Vector3f(table_[values[0]], table_[values[1]], table_[values[2]]); };
+  const auto read = [&](const auto* values) { return Eigen::Vector3f(table_[values[0]], table_[values[1]], table_[values[2]]); };
   const int first = column * image_.channels();
   return image_.depth() == CV_16U ? read(image_.ptr<ushort>(row) + first) : read(image_.ptr<uchar>(row) + first);
 }

@@ -152,8 +152,8 @@ OutlineEdges findOutlineEdges(const LinearLightImage& image, const SphereCone::O
   const double compared = reference + 2 * EdgeProfiles::StretchPx;
   const double extent =
     isRough ? reach + compared : std::max(compared, reach + EdgeProfiles::BlursOfTail * std::max(blur, EdgeProfiles::SharpestPx));
-  const EdgeProfiles profiles(image, expected,
-    { reach, reference, extent, isRough ? CoarseStepPx : FineStepPx, isRough ? ShadingRough : ShadingInside });
+  const EdgeProfiles profiles(
+    image, expected, { reach, reference, extent, isRough ? CoarseStepPx : FineStepPx, isRough ? ShadingRough : ShadingInside });
   std::vector<double> blurs;
   OutlineEdges result = isRough ? findRoughly(profiles, reach, blurs) : findFinely(profiles, search, reference, blurs);
   result.blurPx = blurs.empty() ? 0 : median(blurs);

@@ -18,9 +18,9 @@ namespace handeye
 /// Internal to the detection.
 struct HidingEdge
 {
-  std::size_t corner = 0;       ///< point of the outline near which it goes under
-  int towardsHidden = 1;        ///< the hidden points follow (1) or come before (-1)
-  std::size_t hiddenCount = 0;  ///< points from there to the middle of what is hidden
+  std::size_t corner = 0;                                   ///< point of the outline near which it goes under
+  int towardsHidden = 1;                                    ///< the hidden points follow (1) or come before (-1)
+  std::size_t hiddenCount = 0;                              ///< points from there to the middle of what is hidden
   Eigen::Vector2d pivot_Image = Eigen::Vector2d::Zero();    ///< px, near the edge
   Eigen::Vector2d normal_Image = Eigen::Vector2d::UnitX();  ///< towards what is hidden
   double offsetPx = 0;                                      ///< of the edge from the pivot along the normal
@@ -43,11 +43,11 @@ struct HidingSearch
 {
   const SphereCone::Outline& outline;
   const std::vector<OutlinePixel>& pixels;
-  const OutlineSide& inside;       ///< the light where the outline is seen
+  const OutlineSide& inside;  ///< the light where the outline is seen
   const OutlineSide& outside;
-  const std::vector<char>& isEdge; ///< point by point: the ball ends there as it should
-  double nearPx;                   ///< pixels further than this from the outline are of one side alone
-  float noiseVariance;             ///< of the encoded value
+  const std::vector<char>& isEdge;  ///< point by point: the ball ends there as it should
+  double nearPx;                    ///< pixels further than this from the outline are of one side alone
+  float noiseVariance;              ///< of the encoded value
 };
 
 /// The edges of what hides parts of an outline, good to about a px; at most four. Where something is not as simple as that there is

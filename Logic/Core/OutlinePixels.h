@@ -16,9 +16,9 @@ namespace handeye
 /// A pixel near an outline.
 struct OutlinePixel
 {
-  std::size_t index = 0;  ///< of the outline's point that is nearest
+  std::size_t index = 0;                                  ///< of the outline's point that is nearest
   Eigen::Vector2f place_Image = Eigen::Vector2f::Zero();  ///< px, whole numbers
-  float offsetPx = 0;     ///< from the outline, outwards positive
+  float offsetPx = 0;                                     ///< from the outline, outwards positive
   Eigen::Vector3f light = Eigen::Vector3f::Zero();
 };
 
