@@ -3,6 +3,7 @@
 #include "ErrorDistancePlot.h"
 
 #include "Look.h"
+#include "PlotAxes.h"
 
 #include <QEvent>
 #include <QLabel>
@@ -46,7 +47,10 @@ vtkColor4ub toVtk(const QColor& color, int alpha = 255)
     static_cast<unsigned char>(color.blue()), static_cast<unsigned char>(alpha) };
 }
 
-vtkSmartPointer<vtkTable> makeTable(const QVector<QPointF>& points, const char* yName)
+/// More series than this make a tangle of their means.
+constexpr int MostMeans = 4;
+
+vtkSmartPointer<vtkTable> makeTable(const QVector<QPointF>& points, const char* yName, bool isLogarithmic)
 {
   auto table = vtkSmartPointer<vtkTable>::New();
   vtkNew<vtkDoubleArray> x, y;
@@ -54,23 +58,17 @@ vtkSmartPointer<vtkTable> makeTable(const QVector<QPointF>& points, const char* 
   y->SetName(yName);
   for (const QPointF& point : points)
   {
-    if (std::isfinite(point.x()) && std::isfinite(point.y()))
+    const double height = isLogarithmic ? std::log10(point.y()) : point.y();
+    if (std::isfinite(point.x()) && std::isfinite(height))
     {
       x->InsertNextValue(point.x());
-      y->InsertNextValue(point.y());
+      y->InsertNextValue(height);
     }
   }
   table->AddColumn(x);
   table->AddColumn(y);
   return table;
 }
-
-/// The axes' ends: all points and means, from zero error, with some air.
-struct Ranges
-{
-  double left = 0, right = 1, top = 1;
-  bool isEmpty = true;
-};
 
 /// The marks of the series, as VTK draws them and as the legend writes them.
 struct Marker
@@ -86,47 +84,6 @@ const Marker& markerOf(int index)
   return Markers[std::size_t(index) % std::size(Markers)];
 }
 
-/// About five round numbers (1, 2, 5 times a power of ten) for an axis. VTK's own choice does not ask how large the labels are.
-void setTicks(vtkAxis* axis, double begin, double end)
-{
-  const double rough = (end - begin) / 5;
-  const double power = std::pow(10, std::floor(std::log10(rough)));
-  const double step = power * (rough / power < 1.5 ? 1 : rough / power < 3.5 ? 2 : rough / power < 7.5 ? 5 : 10);
-  vtkNew<vtkDoubleArray> positions;
-  vtkNew<vtkStringArray> labels;
-  const int digits = std::max(0, int(-std::floor(std::log10(step) + 1e-9)));
-  // A label at the very end would be cut off.
-  for (double tick = step * std::ceil(begin / step - 1e-9); tick < end - 0.15 * step; tick += step)
-  {
-    positions->InsertNextValue(tick);
-    labels->InsertNextValue(QLocale().toString(tick, 'f', digits).toStdString());
-  }
-  axis->SetCustomTickPositions(positions, labels);
-}
-
-Ranges rangesOf(const QVector<ErrorSeries>& series)
-{
-  Ranges ranges;
-  for (const ErrorSeries& one : series)
-  {
-    for (const QPointF& point : one.points)
-    {
-      if (std::isfinite(point.x()) && std::isfinite(point.y()))
-      {
-        ranges.left = ranges.isEmpty ? point.x() : std::min(ranges.left, point.x());
-        ranges.right = ranges.isEmpty ? point.x() : std::max(ranges.right, point.x());
-        ranges.top = std::max(ranges.isEmpty ? 0 : ranges.top, point.y());
-        ranges.isEmpty = false;
-      }
-    }
-  }
-  const double air = std::max(10.0, 0.05 * (ranges.right - ranges.left));
-  ranges.left = std::max(0.0, ranges.left - air);
-  ranges.right += air;
-  ranges.top = std::max(0.1, 1.12 * ranges.top);
-  return ranges;
-}
-
 }  // namespace
 
 class ErrorDistancePlot::Private
@@ -135,7 +92,7 @@ public:
   void build(const ErrorDistancePlot& plot);
   void style(const ErrorDistancePlot& plot);
   void styleAxis(vtkAxis* axis, const QString& title, const QWidget& widget, double ratio);
-  void addSeries(const ErrorSeries& one, int index, const QPalette& palette, const Ranges& ranges, double ratio);
+  void addSeries(const ErrorSeries& one, int index, const QPalette& palette, const PlotRanges& ranges, double ratio);
 
   void writeLegend(const QPalette& palette);
 
@@ -158,6 +115,7 @@ public:
   vtkNew<vtkContextView> view;
   vtkNew<vtkChartXY> chart;
   QVector<ErrorSeries> series;
+  ErrorPlotAxes axes;
 };
 
 ErrorDistancePlot::ErrorDistancePlot(QWidget* parent)
@@ -223,6 +181,19 @@ void ErrorDistancePlot::setSeries(const QVector<ErrorSeries>& series)
   d->renderTimer.start();
 }
 
+void ErrorDistancePlot::setAxes(const ErrorPlotAxes& axes)
+{
+  d->axes = axes;
+  d->build(*this);
+  d->renderTimer.start();
+}
+
+QString ErrorDistancePlot::markOf(int index, const QPalette& palette)
+{
+  return QStringLiteral("<span style=\"color:%1\">%2</span>")
+    .arg(seriesColor(index, palette).name(), QString(QChar(markerOf(index).sign)));
+}
+
 const QVector<ErrorSeries>& ErrorDistancePlot::series() const
 {
   return d->series;
@@ -246,7 +217,7 @@ QSize ErrorDistancePlot::minimumSizeHint() const
 void ErrorDistancePlot::Private::build(const ErrorDistancePlot& plot)
 {
   chart->ClearPlots();
-  const Ranges ranges = rangesOf(series);
+  const PlotRanges ranges = PlotRanges::of(series, axes.isLogarithmic, axes.leastAir);
   layout->setCurrentWidget(ranges.isEmpty ? static_cast<QWidget*>(nothing) : page);
   QStringList words;
   const double ratio = plot.devicePixelRatioF();
@@ -263,20 +234,20 @@ void ErrorDistancePlot::Private::build(const ErrorDistancePlot& plot)
   bottom->SetBehavior(vtkAxis::FIXED);
   left->SetBehavior(vtkAxis::FIXED);
   bottom->SetRange(ranges.left, ranges.right);
-  left->SetRange(0, ranges.top);
-  setTicks(bottom, ranges.left, ranges.right);
-  setTicks(left, 0, ranges.top);
+  left->SetRange(ranges.bottom, ranges.top);
+  setPlainTicks(bottom, ranges.left, ranges.right);
+  (axes.isLogarithmic ? setLogarithmicTicks : setPlainTicks)(left, ranges.bottom, ranges.top);
   this->style(plot);
 }
 
 void ErrorDistancePlot::Private::addSeries(
-  const ErrorSeries& one, int index, const QPalette& palette, const Ranges& ranges, double ratio)
+  const ErrorSeries& one, int index, const QPalette& palette, const PlotRanges& ranges, double ratio)
 {
   const QColor color = one.color.isValid() ? one.color : seriesColor(index, palette);
-  if (one.errorPx.count > 0)
+  if (one.errorPx.count > 0 && series.size() <= MostMeans && !axes.isLogarithmic)
   {
     vtkPlot* mean = chart->AddPlot(vtkChart::LINE);
-    mean->SetInputData(makeTable({ { ranges.left, one.errorPx.mean }, { ranges.right, one.errorPx.mean } }, "mean"), 0, 1);
+    mean->SetInputData(makeTable({ { ranges.left, one.errorPx.mean }, { ranges.right, one.errorPx.mean } }, "mean", false), 0, 1);
     const QString title =
       ErrorDistancePlot::tr("%1: mean %2").arg(one.name, withUnit(one.errorPx.mean, 2, ErrorDistancePlot::tr("px")));
     mean->SetLabel(title.toStdString());
@@ -284,15 +255,17 @@ void ErrorDistancePlot::Private::addSeries(
     mean->GetPen()->SetWidth(float(1.6 * ratio));
     mean->GetPen()->SetLineType(vtkPen::DASH_LINE);
   }
-  auto* points = vtkPlotPoints::SafeDownCast(chart->AddPlot(vtkChart::POINTS));
-  points->SetInputData(makeTable(one.points, "error"), 0, 1);
+  auto* points =
+    vtkPlotPoints::SafeDownCast(chart->AddPlot(axes.isJoined && one.points.size() > 1 ? vtkChart::LINE : vtkChart::POINTS));
+  points->SetInputData(makeTable(one.points, "error", axes.isLogarithmic), 0, 1);
   points->SetLabel(one.name.toStdString());
   points->SetMarkerStyle(markerOf(index).style);
   points->SetMarkerSize(float(9 * ratio));
   points->GetPen()->SetColor(toVtk(color));
   points->GetPen()->SetWidth(float(1.5 * ratio));
   points->GetBrush()->SetColor(toVtk(color, 200));
-  points->SetTooltipLabelFormat(ErrorDistancePlot::tr("%1: %y px at %x mm").arg(one.name).toStdString());
+  const QString errorFormat = axes.isLogarithmic ? QString() : ErrorDistancePlot::tr(": %y px at %x %1").arg(axes.xUnit);
+  points->SetTooltipLabelFormat((one.name + errorFormat).toStdString());
 }
 
 void ErrorDistancePlot::Private::styleAxis(vtkAxis* axis, const QString& title, const QWidget& widget, double ratio)
@@ -321,8 +294,12 @@ void ErrorDistancePlot::Private::writeLegend(const QPalette& palette)
   for (int index = 0; index < series.size(); ++index)
   {
     const ErrorSeries& one = series[index];
+    if (one.points.isEmpty())
+    {
+      continue;
+    }
     const QColor color = one.color.isValid() ? one.color : seriesColor(index, palette);
-    const QString mean = one.errorPx.count > 0
+    const QString mean = one.errorPx.count > 0 && series.size() <= MostMeans
       ? ErrorDistancePlot::tr(" (mean %1)").arg(withUnit(one.errorPx.mean, 2, ErrorDistancePlot::tr("px")))
       : QString();
     entries += QStringLiteral("<span style=\"color:%1\">%2</span>&nbsp;%3%4")
@@ -338,8 +315,8 @@ void ErrorDistancePlot::Private::style(const ErrorDistancePlot& plot)
   const QColor ground = palette.color(QPalette::Base);
   view->GetRenderer()->SetBackground(ground.redF(), ground.greenF(), ground.blueF());
   chart->GetBackgroundBrush()->SetColor(toVtk(ground));
-  this->styleAxis(chart->GetAxis(vtkAxis::BOTTOM), ErrorDistancePlot::tr("Distance from the camera [mm]"), plot, ratio);
-  this->styleAxis(chart->GetAxis(vtkAxis::LEFT), ErrorDistancePlot::tr("Projection error [px]"), plot, ratio);
+  this->styleAxis(chart->GetAxis(vtkAxis::BOTTOM), axes.xTitle, plot, ratio);
+  this->styleAxis(chart->GetAxis(vtkAxis::LEFT), axes.yTitle, plot, ratio);
   vtkTooltipItem* tooltip = chart->GetTooltip();
   tooltip->GetTextProperties()->SetFontSize(plot.fontInfo().pixelSize());
   this->writeLegend(palette);

@@ -4,6 +4,9 @@
 
 #include "ErrorSeries.h"
 
+#include <QCoreApplication>
+#include <QPalette>
+#include <QString>
 #include <QVector>
 #include <QWidget>
 
@@ -14,9 +17,19 @@ class vtkChartXY;
 namespace handeye
 {
 
-/// Projection error (px) against distance from the camera (mm): points of one marker and colour per series, and the mean of each as
-/// a
-/// line. Follows the palette, light or dark. Points that are not finite are left out.
+/// What errors are drawn against, and how; the distance from the camera unless said otherwise.
+struct ErrorPlotAxes
+{
+  QString xTitle = QCoreApplication::translate("ErrorDistancePlot", "Distance from the camera [mm]");
+  QString yTitle = QCoreApplication::translate("ErrorDistancePlot", "Projection error [px]");
+  QString xUnit = QStringLiteral("mm");
+  double leastAir = 10;        ///< left and right of the points, in the unit of x
+  bool isLogarithmic = false;  ///< of the errors: where they differ by so much that the small ones would lie on the axis
+  bool isJoined = false;       ///< points of a series are joined by lines
+};
+
+/// Projection error (px) against distance from the camera (mm): points of one marker and colour per series, and the mean of each
+/// (of up to four) as a line. Follows the palette, light or dark. Points that are not finite are left out.
 class ErrorDistancePlot : public QWidget
 {
   Q_OBJECT
@@ -28,6 +41,10 @@ public:
   /// All series; empty shows words instead of axes.
   void setSeries(const QVector<ErrorSeries>& series);
   const QVector<ErrorSeries>& series() const;
+  /// For errors against something else, such as the number of samples.
+  void setAxes(const ErrorPlotAxes& axes);
+  /// The mark of the index-th series in its colour, as rich text.
+  static QString markOf(int index, const QPalette& palette);
   vtkChartXY* chart() const;
 
   QSize sizeHint() const override;

@@ -70,7 +70,7 @@ void FinishPage::refresh()
   {
     const QString verdict = workbench_.verdictOf(step);
     const QString problem = workbench_.problemOf(step);
-    const char* const names[] = { "", "", QT_TR_NOOP("Stylus"), "", QT_TR_NOOP("Calibration"), QT_TR_NOOP("Validation"),
+    const char* const names[] = { "", "", QT_TR_NOOP("Stylus"), "", QT_TR_NOOP("Calibration"), QT_TR_NOOP("Validation"), "",
       QT_TR_NOOP("Phantom") };
     lines << QStringLiteral("<tr><td>%1: </td><td>%2</td></tr>")
                .arg(tr(names[int(step)]), (problem.isEmpty() ? verdict : problem).toHtmlEscaped());

@@ -5,6 +5,7 @@
 #include "BallPage.h"
 #include "CameraPage.h"
 #include "CapturePage.h"
+#include "ComparisonPage.h"
 #include "DevicesPage.h"
 #include "FinishPage.h"
 #include "HandEyeWorkbench.h"
@@ -84,7 +85,7 @@ void HandEyeCalibrationPanel::Private::makePages()
 {
   pages = { new handeye::DevicesPage(*workbench), new handeye::CameraPage(*workbench), new handeye::StylusPage(*workbench),
     new handeye::BallPage(*workbench), new handeye::CapturePage(*workbench), new handeye::ValidationPage(*workbench),
-    new handeye::OverlayPage(*workbench), new handeye::FinishPage(*workbench) };
+    new handeye::ComparisonPage(*workbench), new handeye::OverlayPage(*workbench), new handeye::FinishPage(*workbench) };
   for (WizardPage* page : pages)
   {
     ui.pages->addWidget(page);
@@ -141,6 +142,10 @@ void HandEyeCalibrationPanel::Private::connectAll()
   connect(workbench.get(), &HandEyeWorkbench::ballChanged, &q, forget(WizardStep::Ball));
   connect(workbench.get(), &HandEyeWorkbench::latencyChanged, &q, forget(WizardStep::Ball));
   connect(workbench.get(), &HandEyeWorkbench::modelChanged, &q, forget(WizardStep::Overlay));
+  connect(&workbench->comparison(), &handeye::ComparisonTask::changed, &q, forget(WizardStep::Comparison));
+  // After the page, which takes more room then.
+  connect(&workbench->comparison(), &handeye::ComparisonTask::finished, &q, [this] { refresh(); });
+  connect(&workbench->comparison(), &handeye::ComparisonTask::reportWritten, &q, [this] { refresh(); });
   connect(&workbench->capture(), &handeye::CaptureTask::accepted, &q, forget(WizardStep::Capture));
   connect(&workbench->validationCapture(), &handeye::CaptureTask::accepted, &q, forget(WizardStep::Validation));
   connect(&workbench->pivot(), &handeye::PivotTask::collectingChanged, &q,
@@ -216,10 +221,10 @@ void HandEyeCalibrationPanel::Private::refresh()
     const WizardStep each = WizardStep(i);
     const QString missing = workbench->missingFor(each), problem = workbench->problemOf(each);
     steps->setState(each,
-      !missing.isEmpty()                                  ? WizardStepBar::State::Blocked
-        : problem.isEmpty() && each != WizardStep::Finish ? WizardStepBar::State::Done
-                                                          : WizardStepBar::State::Open,
-      problem);
+      !missing.isEmpty()          ? WizardStepBar::State::Blocked
+        : workbench->isDone(each) ? WizardStepBar::State::Done
+                                  : WizardStepBar::State::Open,
+      missing.isEmpty() ? problem : missing);
   }
   currentPage().refresh();
   // A stack of pages does not ask for the height that wrapped words need at this width.
@@ -371,6 +376,10 @@ bool HandEyeCalibrationPanel::openFile(const QString& path)
     if (d->step == WizardStep::Stylus)
     {
       d->workbench->pivot().calibrateRecording(path, d->workbench->devices().setup().stylusToTracker);
+    }
+    else if (d->step == WizardStep::Comparison)
+    {
+      static_cast<handeye::ComparisonPage*>(page(WizardStep::Comparison))->chooseBoardRecording(path);
     }
     else if (d->step == WizardStep::Capture || d->step == WizardStep::Validation)
     {

@@ -4,6 +4,7 @@
 
 #include "BallColorLearning.h"
 #include "CameraFileWriter.h"
+#include "ComparisonFiles.h"
 #include "JsonEigen.h"
 #include "LandmarkFiles.h"
 #include "ResultFiles.h"
@@ -43,6 +44,7 @@ HandEyeWorkbench::HandEyeWorkbench(vtkSlicerHandEyeCalibrationLogic* logic, QObj
   , latency_(new LatencyTask(*work_, this))
   , capture_(new CaptureTask(*work_, this))
   , validationCapture_(new CaptureTask(*work_, this))
+  , comparison_(new ComparisonTask(this))
 {
   connectTasks();
   try
@@ -118,6 +120,15 @@ void HandEyeWorkbench::connectTasks()
   connect(capture_, &CaptureTask::failed, this, [this](const QString& message) { refuse(WizardStep::Capture, message); });
   connect(
     validationCapture_, &CaptureTask::failed, this, [this](const QString& message) { refuse(WizardStep::Validation, message); });
+  connect(comparison_, &ComparisonTask::changed, this, &HandEyeWorkbench::stateChanged);
+  connect(comparison_, &ComparisonTask::refused, this, [this](const QString& message) { refuse(WizardStep::Comparison, message); });
+  connect(comparison_, &ComparisonTask::finished, this,
+    [this]
+    {
+      const ComparisonResult& result = comparison_->result()->result;
+      store("comparison", comparisonJson(result));
+      emit happened(tr("comparison: %1").arg(QString::fromStdString(result.message)));
+    });
   connect(capture_, &CaptureTask::samplesChanged, this, &HandEyeWorkbench::recalibrate);
   connect(capture_, &CaptureTask::busyChanged, this, &HandEyeWorkbench::recalibrate);
   connect(validationCapture_, &CaptureTask::samplesChanged, this, &HandEyeWorkbench::revalidate);

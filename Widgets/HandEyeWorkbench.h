@@ -5,6 +5,7 @@
 #include "CalibrationStep.h"
 #include "CameraFile.h"
 #include "CaptureTask.h"
+#include "ComparisonTask.h"
 #include "DeviceHub.h"
 #include "LandmarkRegistration.h"
 #include "LatencyTask.h"
@@ -43,10 +44,11 @@ enum class WizardStep
   Ball,
   Capture,
   Validation,
+  Comparison,
   Overlay,
   Finish
 };
-constexpr int WizardStepCount = 8;
+constexpr int WizardStepCount = 9;
 
 /// The wizard without its windows: devices, tasks and results of one session. Every result is stored with the session as soon as it
 /// is there, and comes back when the session is opened again.
@@ -94,6 +96,7 @@ public:
   LatencyTask& latency() { return *latency_; }
   CaptureTask& capture() { return *capture_; }
   CaptureTask& validationCapture() { return *validationCapture_; }
+  ComparisonTask& comparison() { return *comparison_; }
 
   // Session
   /// A folder that there is not yet, for a new session.
@@ -141,6 +144,22 @@ public:
   bool isEnough() const;
   void writeReport(const QString& folder);
 
+  // Comparison
+  /// What a person adds to the session's own samples.
+  struct ComparisonExtras
+  {
+    QString boardRecording;
+    std::optional<BoardDescription> board;
+    QStringList otherCaptures;  ///< of the ball, independent of the session's
+    double branchAndBoundSec = 30;
+  };
+  /// All methods on the samples that take part now; refused in words where something is missing.
+  void compare(const ComparisonExtras& extras);
+  /// The samples, the lens or the stylus are others than those that were compared.
+  bool isComparisonStale() const;
+  /// The session's folder for the comparison's report.
+  QString comparisonFolder() const;
+
   // Overlay
   void loadModel(const QString& path);
   vtkPolyData* model() const { return model_; }
@@ -169,6 +188,8 @@ public:
   QString missingFor(WizardStep step) const;
   /// The verdict of a step in plain words; empty while there is none.
   QString verdictOf(WizardStep step) const;
+  /// Whether there is a usable result; of a step that can be left out, whether there is one at all.
+  bool isDone(WizardStep step) const;
 
   void cancelWork();
 
@@ -194,6 +215,7 @@ signals:
 
 private:
   void connectTasks();
+  QString missingForComparison() const;
   void takeDocuments(const std::map<std::string, nlohmann::json>& documents, const QStringList& problems);
   void restoreFiles(const std::map<std::string, nlohmann::json>& documents);
   void storeBall();
@@ -223,6 +245,7 @@ private:
   LatencyTask* latency_;
   CaptureTask* capture_;
   CaptureTask* validationCapture_;
+  ComparisonTask* comparison_;
   WizardStep step_ = WizardStep::Devices;
   QStringList sessionProblems_;
   std::optional<Camera> camera_;

@@ -6,6 +6,7 @@
 #include "OverlayPose.h"
 #include "ResultFiles.h"
 #include "ValidationReport.h"
+#include "WindowPlots.h"
 #include "WorkThread.h"
 #include "vtkSlicerHandEyeCalibrationLogic.h"
 
@@ -219,10 +220,11 @@ void HandEyeWorkbench::writeReport(const QString& folder)
     return;
   }
   const std::filesystem::path recording = validationCapture_->folder().toStdString();
+  const report::PlotDrawer draw = drawInWindowThread(*this, [thread = work_.get()] { return thread->isEnding(); });
   beside(WizardStep::Finish,
-    [this, folder, recording, validation = *validation_]
+    [this, folder, recording, draw, validation = *validation_]
     {
-      writeValidationReport(folder.toStdString(), validation, io::Recording::open(recording));
+      writeValidationReport(folder.toStdString(), validation, io::Recording::open(recording), draw);
       tell([this, folder] { emit reportWritten(folder + QStringLiteral("/report.html")); });
     });
 }

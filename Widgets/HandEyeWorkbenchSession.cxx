@@ -59,6 +59,7 @@ void HandEyeWorkbench::openSession(const QString& folder)
   validation_.reset();
   modelToPhantom_.reset();
   registration_.reset();
+  comparison_->clear();
   sessionProblems_.clear();
   capture_->setInputs({});
   validationCapture_->setInputs({});

@@ -27,6 +27,10 @@ QString HandEyeWorkbench::missingFor(WizardStep step) const
   {
     return {};
   }
+  if (step == WizardStep::Comparison)
+  {
+    return missingForComparison();
+  }
   if (!calibration_ || !calibration_->isUsable())
   {
     return tr("There is no calibration yet: collect placements of the ball on the page Capture.");
@@ -34,8 +38,18 @@ QString HandEyeWorkbench::missingFor(WizardStep step) const
   return {};
 }
 
+bool HandEyeWorkbench::isDone(WizardStep step) const
+{
+  return step == WizardStep::Comparison ? comparison_->result() != nullptr
+                                        : step != WizardStep::Finish && problemOf(step).isEmpty();
+}
+
 QString HandEyeWorkbench::problemOf(WizardStep step) const
 {
+  if (step == WizardStep::Comparison)
+  {
+    return {};  // can be left out
+  }
   const QString missing = missingFor(step);
   if (!missing.isEmpty())
   {
@@ -72,6 +86,7 @@ QString HandEyeWorkbench::problemOf(WizardStep step) const
         : modelToPhantom_ ? QString()
         : registration_   ? QString::fromStdString(registration_->message)
                           : tr("Register the phantom: touch its landmarks, or load a registration.");
+    case WizardStep::Comparison:
     case WizardStep::Finish:
       return {};
   }
@@ -96,6 +111,7 @@ QString HandEyeWorkbench::verdictOf(WizardStep step) const
       return validation_ ? QString::fromStdString(validation_->message) : QString();
     case WizardStep::Overlay:
       return registration_ && registration_->isUsable() ? QString::fromStdString(registration_->message) : QString();
+    case WizardStep::Comparison:
     case WizardStep::Finish:
       break;
   }

@@ -14,7 +14,7 @@ namespace handeye
 namespace
 {
 
-constexpr int Columns = 4;
+constexpr int Columns = 3;
 
 QString stateWord(WizardStepBar::State state)
 {
@@ -90,10 +90,12 @@ QString WizardStepBar::nameOf(WizardStep step)
       return tr("5 Capture");
     case WizardStep::Validation:
       return tr("6 Validation");
+    case WizardStep::Comparison:
+      return tr("7 Comparison");
     case WizardStep::Overlay:
-      return tr("7 Overlay");
+      return tr("8 Overlay");
     case WizardStep::Finish:
-      return tr("8 Finish");
+      return tr("9 Finish");
   }
   return {};
 }

@@ -13,7 +13,7 @@ class QToolButton;
 namespace handeye
 {
 
-/// The wizard's steps in two rows, each with its state: done, open, or blocked by an earlier one. A click goes there.
+/// The wizard's steps in three rows, each with its state: done, open, or blocked by an earlier one. A click goes there.
 class WizardStepBar : public QWidget
 {
   Q_OBJECT

@@ -55,8 +55,8 @@ struct BoardHandEyeOptions
   double maximumRmsMm = 25;
 
   /// Of `BranchAndBound`: stop as soon as the proven gap is below this (rad), or below this share of the best error.
-  double gapRad = 1e-4;
-  double relativeGap = 0.05;
+  double gapRad = 1e-6;
+  double relativeGap = 0.01;
   double timeLimitSec = 60;         ///< then the best so far is the answer, with its gap
   double maximumOffsetMm = 1000;    ///< the camera's centre is no further from the marker's origin along each axis
   int maximumPairs = 20;            ///< of views, those that turn most about different axes

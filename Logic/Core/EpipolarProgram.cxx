@@ -5,6 +5,7 @@
 #include <ClpSimplex.hpp>
 #include <CoinPackedMatrix.hpp>
 
+#include <cmath>
 #include <numeric>
 
 namespace handeye
@@ -90,35 +91,59 @@ void EpipolarProgram::addPlanes(const EpipolarPair& pair, const Eigen::Matrix3d&
     {
       const Eigen::Vector3d normal = a * rays.between + side * std::sqrt(1 - a * a) * rays.across;
       const Eigen::Vector3d gradient = byCenter.transpose() * normal;
-      costs_.push_back(normal.dot(translation));
-      elements_.insert(elements_.end(), { 1, -gradient.x(), -gradient.y(), -gradient.z() });
+      dual_.add({ 1, -gradient.x(), -gradient.y(), -gradient.z() }, normal.dot(translation));
     }
   }
 }
 
-std::optional<Eigen::Vector3d> EpipolarProgram::solve(const Eigen::Matrix3d& markerToCamera, double boundRad)
+/// The dual. @return false where no plane says anything
+bool EpipolarProgram::load(const Eigen::Matrix3d& markerToCamera, double boundRad)
 {
-  costs_.clear();
-  elements_.clear();
+  dual_.clear();
   const Eigen::Matrix3d cameraToMarker = markerToCamera.transpose();
   for (const EpipolarPair& pair : pairs_)
   {
     this->addPlanes(pair, cameraToMarker, std::min(boundRad, 1.57));
   }
-  if (costs_.empty())
+  box_ = dual_.columnCount();
+  for (int k = 0; k < 6; ++k)
+  {
+    dual_.add((k % 2 == 0 ? 1 : -1) * Eigen::Vector4d::Unit(1 + k / 2), limit_);
+  }
+  return box_ > 0;
+}
+
+std::optional<Eigen::Vector3d> EpipolarProgram::solve(const Eigen::Matrix3d& markerToCamera, double boundRad)
+{
+  using End = SmallSimplex<4>::End;
+  if (!this->load(markerToCamera, boundRad))
   {
     return Eigen::Vector3d(Eigen::Vector3d::Zero());
   }
-  for (int k = 0; k < 6; ++k)
+  ++solvedCount_;
+  // One plane with the weight 1, and of the limits what it takes to balance it.
+  Eigen::Index first = 0;
+  dual_.costs().head(box_).minCoeff(&first);
+  SmallSimplex<4>::Basis basis{ int(first), 0, 0, 0 };
+  for (int k = 0; k < 3; ++k)
   {
-    double column[4] = { 0, 0, 0, 0 };
-    column[1 + k / 2] = k % 2 == 0 ? 1 : -1;
-    costs_.push_back(limit_);
-    elements_.insert(elements_.end(), column, column + 4);
+    basis[std::size_t(1 + k)] = box_ + 2 * k + (dual_.columns()(1 + k, first) > 0 ? 1 : 0);
   }
-  const int columns = int(costs_.size());
+  const End end = dual_.minimize(Eigen::Vector4d::UnitX(), basis, -Tolerance);
+  if (end == End::NotDecided)
+  {
+    return solveByClp();
+  }
+  return end == End::Below ? std::nullopt : std::optional<Eigen::Vector3d>(UnitMm * dual_.multipliers().tail<3>());
+}
+
+std::optional<Eigen::Vector3d> EpipolarProgram::solveByClp()
+{
+  const int columns = dual_.columnCount();
+  const Eigen::Matrix4Xd elements = dual_.columns();
+  const Eigen::VectorXd costs = dual_.costs();
   std::vector<CoinBigIndex> starts(std::size_t(columns) + 1);
-  std::vector<int> rows(elements_.size());
+  std::vector<int> rows(std::size_t(4 * columns));
   for (int i = 0; i <= columns; ++i)
   {
     starts[std::size_t(i)] = 4 * i;
@@ -129,10 +154,9 @@ std::optional<Eigen::Vector3d> EpipolarProgram::solve(const Eigen::Matrix3d& mar
   }
   const double right[4] = { 1, 0, 0, 0 };
   const CoinPackedMatrix matrix(
-    true, 4, columns, CoinBigIndex(elements_.size()), elements_.data(), rows.data(), starts.data(), nullptr);
-  simplex_->loadProblem(matrix, nullptr, nullptr, costs_.data(), right, right);
+    true, 4, columns, CoinBigIndex(elements.size()), elements.data(), rows.data(), starts.data(), nullptr);
+  simplex_->loadProblem(matrix, nullptr, nullptr, costs.data(), right, right);
   simplex_->primal();
-  ++solvedCount_;
   if (simplex_->status() != 0)
   {
     return Eigen::Vector3d(Eigen::Vector3d::Zero());  // not decided: nothing may be excluded
@@ -143,6 +167,40 @@ std::optional<Eigen::Vector3d> EpipolarProgram::solve(const Eigen::Matrix3d& mar
   }
   const double* multipliers = simplex_->getRowPrice();
   return Eigen::Vector3d(UnitMm * Eigen::Vector3d(multipliers[1], multipliers[2], multipliers[3]));
+}
+
+/// max of each c_k and -c_k with  n_i . (t_i + (R_i - I) c) >= 0: the same columns without the first row, a unit vector on the right.
+/// Begins with the limits as the basis, so that whatever is reached is a bound.
+bool EpipolarProgram::boxOfCenters(
+  const Eigen::Matrix3d& markerToCamera, double boundRad, Eigen::Vector3d& middle, Eigen::Vector3d& halfWidths)
+{
+  if (!this->load(markerToCamera, boundRad))
+  {
+    return true;
+  }
+  box3_.clear();
+  for (int i = 0; i < dual_.columnCount(); ++i)
+  {
+    box3_.add(dual_.columns().col(i).tail<3>(), dual_.costs()(i));
+  }
+  Eigen::Vector3d low = middle - halfWidths, high = middle + halfWidths;
+  for (int k = 0; k < 6; ++k)
+  {
+    const int side = k % 2 == 0 ? 1 : -1;
+    SmallSimplex<3>::Basis basis{ box_, box_ + 2, box_ + 4 };
+    basis[std::size_t(k / 2)] = box_ + k;
+    (void)box3_.minimize(side * Eigen::Vector3d::Unit(k / 2), basis, -1e30);
+    ++solvedCount_;
+    if (std::isfinite(box3_.objective()))
+    {
+      const double reach = side * UnitMm * (box3_.objective() + Tolerance);
+      double& end = side > 0 ? high(k / 2) : low(k / 2);
+      end = side > 0 ? std::min(end, reach) : std::max(end, reach);
+    }
+  }
+  middle = (low + high) / 2;
+  halfWidths = (high - low) / 2;
+  return halfWidths.minCoeff() >= 0;
 }
 
 EpipolarSolution EpipolarProgram::minimize(const Eigen::Matrix3d& markerToCamera, double startRad)

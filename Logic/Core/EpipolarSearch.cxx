@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EpipolarSearch.h"
 
+#include "EpipolarCell.h"
 #include "EpipolarProgram.h"
 #include "RigidTransform.h"
 
@@ -14,6 +15,9 @@ namespace handeye
 namespace
 {
 
+/// Below this the slack of EpipolarCellProgram, which is of second order, is worth its price.
+constexpr double SmallReachRad = 0.1;
+
 /// A cube of rotation vectors.
 struct Cube
 {
@@ -21,6 +25,8 @@ struct Cube
   double halfSide = EIGEN_PI;
   double lowerBoundRad = 0;
   Eigen::Vector3d center_Marker = Eigen::Vector3d::Zero();  ///< a good one for the cube that this is part of
+  /// A box that holds the centres of all solutions that matter; not yet looked for where it has no size.
+  Eigen::Vector3d boxMiddle_Marker = Eigen::Vector3d::Zero(), boxHalfMm = Eigen::Vector3d::Zero();
 
   /// No rotation in the cube differs from that of its middle by more than this: |log(A B^T)| <= |log A - log B|.
   double reachRad() const { return std::sqrt(3.0) * halfSide; }
@@ -43,6 +49,7 @@ public:
     , options_(options)
     , progress_(progress)
     , program_(pairs, options.maximumOffsetMm)
+    , cells_(pairs)
     , start_(std::chrono::steady_clock::now())
   {
   }
@@ -130,16 +137,50 @@ private:
       offer({ rotation, cube.center_Marker, error });
       descend(rotation);
     }
-    // A second program where it may raise the bound that the cube hands on.
-    for (const double share : { 0.75, 0.4 })
+    if (reach < SmallReachRad && !narrow(cube, rotation, wanted))
     {
-      if (reach < 2 * wanted && share * wanted > cube.lowerBoundRad && !program_.solve(rotation, share * wanted + reach))
+      provenRad_ = std::min(provenRad_, wanted);
+      return;
+    }
+    raiseBound(cube, rotation, wanted);
+    queue_.push(cube);
+  }
+
+  /// Small cubes by what rotation and centre do together. @return false where the cube holds nothing below the bound
+  bool narrow(Cube& cube, const Eigen::Matrix3d& rotation, double wanted)
+  {
+    const double reach = cube.reachRad();
+    if (cube.boxHalfMm.isZero())
+    {
+      cube.boxHalfMm.setConstant(options_.maximumOffsetMm);
+    }
+    if (!program_.boxOfCenters(rotation, wanted + reach, cube.boxMiddle_Marker, cube.boxHalfMm))
+    {
+      return false;
+    }
+    EpipolarCell cell{ rotation, reach, cube.boxMiddle_Marker, cube.boxHalfMm };
+    const bool isOpen = cells_.narrow(cell, wanted);
+    cube.boxMiddle_Marker = cell.center_Marker;
+    cube.boxHalfMm = cell.halfWidthsMm;
+    return isOpen;
+  }
+
+  /// A further program where it may raise the bound that the cube hands on.
+  void raiseBound(Cube& cube, const Eigen::Matrix3d& rotation, double wanted)
+  {
+    const double reach = cube.reachRad();
+    for (const double share : { 0.9, 0.7, 0.4 })
+    {
+      const double bound = share * wanted;
+      const bool mayBeExcluded = bound > cube.lowerBoundRad && (reach < SmallReachRad || reach < 2 * wanted);
+      if (mayBeExcluded &&
+        (reach < SmallReachRad ? cells_.excludes({ rotation, reach, cube.boxMiddle_Marker, cube.boxHalfMm }, bound)
+                               : !program_.solve(rotation, bound + reach)))
       {
-        cube.lowerBoundRad = share * wanted;
+        cube.lowerBoundRad = bound;
         break;
       }
     }
-    queue_.push(cube);
   }
 
   /// Not again where a descent began nearby.
@@ -204,7 +245,7 @@ private:
   BranchAndBoundState currentState() const
   {
     BranchAndBoundState state = state_;
-    state.linearPrograms = program_.solvedCount();
+    state.linearPrograms = program_.solvedCount() + cells_.solvedCount();
     state.elapsedSec = elapsedSec();
     state.bestErrorRad = best_ ? best_->errorRad : 0;
     const double waiting = queue_.empty() ? openRad_ : std::min(openRad_, queue_.top().lowerBoundRad);
@@ -227,6 +268,7 @@ private:
   const BoardHandEyeOptions& options_;
   const BranchAndBoundProgress& progress_;
   EpipolarProgram program_;
+  EpipolarCellProgram cells_;
   std::chrono::steady_clock::time_point start_;
   std::priority_queue<Cube, std::vector<Cube>, IsLessUrgent> queue_;
   std::optional<EpipolarSolution> best_;

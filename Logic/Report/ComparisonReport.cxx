@@ -86,7 +86,8 @@ report::Figure pictureOf(
     if (capture != method.captures.end() && capture->validation.samples[sample].status == CameraModel::Status::Ok)
     {
       const HandEyeValidationSample& validated = capture->validation.samples[sample];
-      predicted.push_back({ validated.projected_Image, report::seriesColor(std::size_t(index)), method.name });
+      predicted.push_back({ validated.projected_Image,
+        report::seriesOf(result.methods, std::size_t(index), report::PlotSeries::Style::Dots).color, method.name });
       errors += (errors.empty() ? "" : ", ") + method.name + " " + fixedDigits(validated.errorPx, 2) + " px";
     }
   }
@@ -162,7 +163,7 @@ std::string plateauWords(const std::vector<MethodResult>& methods)
                       : "Within 10 % of what the largest subsets reach (samples): " + text + ".";
 }
 
-void addSubsets(report::ReportDocument& document, const ComparisonResult& result)
+void addSubsets(report::ReportDocument& document, const ComparisonResult& result, const report::PlotDrawer& draw)
 {
   const std::optional<report::Plot> plot = report::errorAgainstSamples(result.methods);
   if (!plot)
@@ -170,13 +171,14 @@ void addSubsets(report::ReportDocument& document, const ComparisonResult& result
     return;
   }
   document.blocks.push_back(report::Heading{ "How many samples?" });
-  document.blocks.push_back(report::Paragraph{ "Random subsets of the first capture, with fixed seeds, each judged on the whole "
-                                               "validation set; the median of their mean errors. "
-                                               "Sizes at which less than half of the subsets gave a calibration are not drawn. "
-                                               "Three points fit up to four calibrations exactly, "
-                                               "so that no method has one answer for them. " +
-    plateauWords(result.methods) });
-  report::addPlot(document, plot, "One colour a method.");
+  document.blocks.push_back(
+    report::Paragraph{ "Random subsets of the first capture, with fixed seeds, each judged on the whole "
+                       "validation set; the median of their mean errors. "
+                       "Subsets without a calibration count as the worst; sizes at which half of them are such are not drawn. "
+                       "Three points fit up to four calibrations exactly, "
+                       "so that no method has one answer for them. " +
+      plateauWords(result.methods) });
+  report::addPlot(document, plot, "Solid: methods with the ball; dashed: with a board.", draw);
   document.blocks.push_back(report::subsetsTable(result.methods));
 }
 
@@ -204,19 +206,21 @@ report::ReportDocument comparisonDocument(const ComparisonResult& result, const 
   document.title = "Comparison of hand-eye calibrations";
   document.verdictText = result.message;
   document.verdict = result.ranking.empty() ? report::ReportDocument::Verdict::Poor
-                                            : report::verdictOf(result.methods[std::size_t(result.ranking.front())].errorPx);
+                                            : report::verdictOf(result.methods[std::size_t(result.ranking.front())].commonErrorPx);
   for (const std::string& fact : input.facts)
   {
     document.blocks.push_back(report::Paragraph{ fact });
   }
   document.blocks.push_back(report::Heading{ "Projection error" });
-  document.blocks.push_back(report::methodsTable(result.methods,
+  document.blocks.push_back(report::methodsTable(result,
     "Distance (px) between where a calibration puts the tracked ball and where it is segmented, on the same " +
       std::to_string(result.validationCount) + " validation samples for every method, none of which was fitted"));
-  report::addPlot(document, report::errorAgainstDistance(result.methods), "One colour a method, a dot a validation sample.");
-  report::addPlot(document, report::shareBelowError(result.methods), "One colour a method; the further left, the better.");
+  report::addPlot(document, report::errorAgainstDistance(result.methods),
+    "One colour and mark a method, a mark a validation sample.", input.drawPlot);
+  report::addPlot(document, report::shareBelowError(result.methods),
+    "Solid: methods with the ball; dashed: with a board. The further left, the better.", input.drawPlot);
   addPictures(document, result, input);
-  addSubsets(document, result);
+  addSubsets(document, result, input.drawPlot);
   addRepeatability(document, result);
   document.blocks.push_back(report::Heading{ "Captures" });
   document.blocks.push_back(capturesTable(result.methods));

@@ -6,6 +6,7 @@
 #include "MethodComparison.h"
 #include "Recording.h"
 #include "ReportDocument.h"
+#include "ReportPlot.h"
 
 #include <filesystem>
 #include <string>
@@ -21,6 +22,7 @@ struct ComparisonReportInput
   std::vector<CapturedFrame> frames;         ///< the frames of the validation, for their pictures
   const io::Recording* recording = nullptr;  ///< of the validation; without it there are no pictures
   std::vector<std::string> facts;            ///< sentences about captures, lens and noise: what was compared, from which files
+  report::PlotDrawer drawPlot = report::drawPlot;
 };
 
 /// The report of `handeye compare`: verdict, one row a method (the paper's tables 2-4), error against distance and against the
@@ -34,7 +36,7 @@ namespace report
 {
 
 /// The tables of it, for whoever pools comparisons.
-[[nodiscard]] Table methodsTable(const std::vector<MethodResult>& methods, const std::string& caption);
+[[nodiscard]] Table methodsTable(const ComparisonResult& result, const std::string& caption);
 [[nodiscard]] Table subsetsTable(const std::vector<MethodResult>& methods);
 [[nodiscard]] Table repeatabilityTable(const std::vector<MethodResult>& methods);
 

@@ -3,28 +3,70 @@
 #include "ComparisonReport.h"
 #include "NumberWords.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace handeye::report
 {
 
-Table methodsTable(const std::vector<MethodResult>& methods, const std::string& caption)
+namespace
 {
+
+/// Place of each method: "1", "2 ~" where it is not told apart from the first, "apart" where it is not ranked with the others.
+std::vector<std::string> ranksOf(const ComparisonResult& result)
+{
+  std::vector<std::string> ranks(result.methods.size());
+  for (std::size_t i = 0; i < result.ranking.size(); ++i)
+  {
+    ranks[std::size_t(result.ranking[i])] = std::to_string(i + 1);
+  }
+  for (const int index : result.notToldApart)
+  {
+    ranks[std::size_t(index)] += " ~";
+  }
+  for (const int index : result.incomplete)
+  {
+    ranks[std::size_t(index)] = "apart";
+  }
+  return ranks;
+}
+
+}  // namespace
+
+Table methodsTable(const ComparisonResult& result, const std::string& caption)
+{
+  const bool hasGaps = std::any_of(result.methods.begin(), result.methods.end(),
+    [](const MethodResult& method) { return method.isUsable() && method.commonErrorPx.count < method.errorPx.count; });
   Table table;
-  table.caption = caption;
-  table.headings = { "method", "target", "status", "mean", "std", "min", "max", "RMS", "errors", "calibrations", "time (s)",
+  table.caption = caption + ". Rank: ~ is not told apart from the first by these data" +
+    (result.incomplete.empty() ? "" : "; apart: failed where others did not, its errors are of easier cases") +
+    (hasGaps ? ". Common mean: over the samples for which every ranked method has a result, which the ranking compares" : "");
+  table.headings = { "method", "target", "status", "rank", "mean", "std", "min", "max", "RMS", "errors", "calibrations", "time (s)",
     "what it is" };
+  if (hasGaps)
+  {
+    table.headings.insert(table.headings.begin() + 5, "common mean");
+  }
   table.textColumns = 3;
   table.endsWithText = true;
-  for (const MethodResult& method : methods)
+  const std::vector<std::string> ranks = ranksOf(result);
+  for (std::size_t i = 0; i < result.methods.size(); ++i)
   {
+    const MethodResult& method = result.methods[i];
     const Summary& error = method.errorPx;
     const bool ok = method.isUsable();
     const auto px = [&](double value) { return ok ? fixedDigits(value, 2) : std::string(); };
     const bool allUsable = method.usableCount() == int(method.captures.size());
-    table.rows.push_back({ method.name, toString(method.target), method.status, px(error.mean), px(error.standardDeviation),
-      px(error.minimum), px(error.maximum), px(error.rms), std::to_string(error.count),
+    std::vector<std::string> row = { method.name, toString(method.target), method.status, ranks[i], px(error.mean),
+      px(error.standardDeviation), px(error.minimum), px(error.maximum), px(error.rms), std::to_string(error.count),
       std::to_string(method.usableCount()) + " of " + std::to_string(method.captures.size()),
       significantDigits(method.medianSeconds(), 2),
-      method.title + " (" + method.reference + ")" + (ok && allUsable ? "" : ". " + method.message) });
+      method.title + " (" + method.reference + ")" + (ok && allUsable ? "" : ". " + method.message) };
+    if (hasGaps)
+    {
+      row.insert(row.begin() + 5, px(method.commonErrorPx.mean));
+    }
+    table.rows.push_back(std::move(row));
   }
   return table;
 }
@@ -34,8 +76,8 @@ Table subsetsTable(const std::vector<MethodResult>& methods)
   const std::vector<int> sizes = { 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30 };
   Table table;
   table.caption =
-    "Median of the mean projection errors (px) by the number of samples; in brackets the share of subsets that gave a "
-    "calibration, where not all did";
+    "Median of the mean projection errors (px) by the number of samples, subsets without a calibration counting as the worst; in "
+    "brackets the share of subsets that gave a calibration, where not all did";
   table.headings = { "method" };
   int largest = 0;
   for (const MethodResult& method : methods)
@@ -64,7 +106,8 @@ Table subsetsTable(const std::vector<MethodResult>& methods)
         if (sizes[column - 1] == subset.sampleCount && subset.repetitions > 0)
         {
           const int share = 100 * subset.usable / subset.repetitions;
-          row[column] = (subset.usable > 0 ? fixedDigits(subset.medianPx, 2) : std::string("none")) +
+          row[column] =
+            (subset.usable > 0 && std::isfinite(subset.medianPx) ? fixedDigits(subset.medianPx, 2) : std::string("none")) +
             (share < 100 && share > 0 ? " (" + std::to_string(share) + " %)" : "");
         }
       }

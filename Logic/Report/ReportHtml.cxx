@@ -14,8 +14,9 @@ namespace
 
 /// Readable on a wide screen, on a telephone and on paper; colours are never the only sign.
 const char* const Style = R"(
+:root { color-scheme: light dark; }
 body { font: 16px/1.5 "DejaVu Sans", system-ui, sans-serif; color: #1b1b1b; background: #fff; }
-body { max-width: 68em; margin: 0 auto; padding: 1em; }
+body { max-width: 76em; margin: 0 auto; padding: 1em; }
 h1 { font-size: 1.6em; line-height: 1.2; margin: .5em 0; }
 h2 { font-size: 1.25em; margin: 2em 0 .5em; border-bottom: 1px solid #ccc; padding-bottom: .2em; }
 .verdict { border-left: .5em solid #666; background: #f3f3f3; padding: .8em 1em; margin: 1em 0; font-size: 1.1em; }
@@ -25,14 +26,27 @@ h2 { font-size: 1.25em; margin: 2em 0 .5em; border-bottom: 1px solid #ccc; paddi
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .9em; }
 p, li { overflow-wrap: anywhere; }
 .caption { color: #444; font-size: .9em; margin: 1em 0 .3em; }
-th, td { padding: .25em .7em; border-bottom: 1px solid #ddd; text-align: right; vertical-align: top; white-space: nowrap; }
+th, td { padding: .25em .6em; border-bottom: 1px solid #ddd; text-align: right; vertical-align: top; white-space: nowrap; }
 th { border-bottom: 2px solid #888; vertical-align: bottom; }
-.text { text-align: left; } .long { text-align: left; white-space: normal; min-width: 16em; }
+.text { text-align: left; } .long { text-align: left; white-space: normal; min-width: 15em; }
 tbody tr:nth-child(even) { background: #f7f7f7; }
-figure { margin: 1em 0; } img { max-width: 100%; height: auto; } figcaption { color: #444; font-size: .9em; }
+figure { margin: 1em 0; } img { max-width: 100%; height: auto; background: #fff; } figcaption { color: #444; font-size: .9em; }
 .gallery { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(26em, 100%), 1fr)); gap: 1em; }
 .gallery figure { margin: 0; }
 footer { margin-top: 3em; color: #666; font-size: .85em; }
+@media (max-width: 45em) {
+  body { padding: .5em; }
+  .plot img { max-width: none; width: 48em; }
+  h1 { font-size: 1.3em; } .long { min-width: 13em; } th, td { padding: .2em .4em; }
+}
+@media screen and (prefers-color-scheme: dark) {
+  body { color: #e6e6e6; background: #1d1f22; }
+  h2 { border-color: #555; } th, td { border-color: #444; } th { border-bottom-color: #888; }
+  tbody tr:nth-child(even) { background: #26282c; }
+  .caption, figcaption, footer { color: #bbb; } a { color: #7fb5ff; }
+  .verdict { background: #2b2d31; } .good { background: #1b3324; border-color: #5fd38a; }
+  .fair { background: #3a2e16; border-color: #ffca5c; } .poor { background: #3d2220; border-color: #ff8f85; }
+}
 @media print { body { max-width: none; } figure, tr { break-inside: avoid; } }
 )";
 
@@ -109,8 +123,11 @@ public:
   void operator()(const Figure& figure)
   {
     const std::string caption = escapeHtml(figure.caption);
-    html_ += "<figure><img src='" + dataUri(figure) + "' width='" + std::to_string(figure.picture.cols) + "' height='" +
-      std::to_string(figure.picture.rows) + "' alt='" + caption + "'><figcaption>" + caption + "</figcaption></figure>\n";
+    const std::string frame = figure.isPhotograph ? "" : "<div class='scroll plot'>",
+                      frameEnd = figure.isPhotograph ? "" : "</div>";
+    html_ += "<figure>" + frame + "<img src='" + dataUri(figure) + "' width='" + std::to_string(figure.picture.cols) +
+      "' height='" + std::to_string(figure.picture.rows) + "' alt='" + caption + "'>" + frameEnd + "<figcaption>" + caption +
+      "</figcaption></figure>\n";
   }
   void operator()(const Gallery& gallery)
   {

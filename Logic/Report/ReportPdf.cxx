@@ -21,7 +21,7 @@ namespace handeye::report
 namespace
 {
 
-constexpr int PageWidthPx = 640;  ///< of an A4 page within margins of 2 cm, at 96 dots an inch
+constexpr int PageWidthPx = 622;  ///< of an A4 page within margins of 2 cm, at 96 dots an inch, less what lines keep free
 
 /// In a program that is not Qt's, what Qt finds remarkable about its surroundings is nobody's business; what fails is.
 void passOnFailures(QtMsgType type, const QMessageLogContext&, const QString& message)

@@ -106,6 +106,7 @@ void addSeries(vtkChartXY* chart, const PlotSeries& series, vtkTable* table)
   points->SetLabel(series.label);
   points->SetColor(series.color[0], series.color[1], series.color[2], 255);
   points->SetWidth(isLine ? 2.5F : 1.5F);
+  points->GetPen()->SetLineType(isLine && series.isDashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
   points->SetMarkerStyle(markers[series.marker % 5]);
   points->SetMarkerSize(isLine ? 9.0F : 11.0F);
 }
@@ -222,9 +223,8 @@ cv::Mat readPixels(vtkRenderWindow* window, int width, int height)
 
 Color seriesColor(std::size_t index)
 {
-  static const Color colors[] = { { 0, 90, 181 }, { 213, 50, 32 }, { 0, 140, 110 }, { 230, 159, 0 }, { 140, 60, 160 },
-    { 90, 90, 90 }, { 60, 180, 220 }, { 150, 85, 20 }, { 235, 120, 165 }, { 120, 170, 40 }, { 20, 40, 90 }, { 190, 150, 220 },
-    { 0, 0, 0 }, { 255, 110, 0 }, { 0, 205, 160 }, { 120, 0, 60 } };
+  static const Color colors[] = { { 0, 90, 181 }, { 213, 70, 0 }, { 0, 140, 105 }, { 204, 100, 160 }, { 0, 0, 0 }, { 225, 150, 0 },
+    { 70, 165, 220 }, { 130, 130, 130 }, { 125, 100, 0 } };
   return colors[index % (sizeof(colors) / sizeof(colors[0]))];
 }
 

@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace handeye::report
 
 using Color = std::array<unsigned char, 3>;  ///< red, green, blue
 
-/// One colour a method. Sixteen that people who confuse red and green can tell apart by lightness, then again with another marker.
+/// Nine colours (Okabe and Ito's and a grey, darker where white paper asks for it) that people who confuse red and green can tell apart,
+/// then again from the first.
 Color seriesColor(std::size_t index);
 
 struct PlotSeries
@@ -27,6 +29,7 @@ struct PlotSeries
   Color color = { 0, 0, 0 };
   Style style = Style::Dots;
   int marker = 0;            ///< 0 to 4: circle, square, diamond, plus, cross
+  bool isDashed = false;     ///< of a line
   std::vector<double> x, y;  ///< of the same length
 };
 
@@ -49,5 +52,8 @@ struct Plot
 /// @throws std::invalid_argument where lists differ in length, a number is not finite or there is nothing to draw;
 ///         std::runtime_error where nothing can be rendered
 [[nodiscard]] cv::Mat drawPlot(const Plot& plot);
+
+/// Who draws a report's plots: drawPlot(), or somebody who has it done in another thread.
+using PlotDrawer = std::function<cv::Mat(const Plot&)>;
 
 }  // namespace handeye::report

@@ -14,16 +14,6 @@ namespace
 /// Beyond this ratio of the largest to the least, a linear axis hides the small ones.
 constexpr double LogarithmicFrom = 15;
 
-PlotSeries seriesOf(const MethodResult& method, std::size_t index, PlotSeries::Style style)
-{
-  PlotSeries series;
-  series.label = method.name;
-  series.color = seriesColor(index);
-  series.marker = int(index % 5);
-  series.style = style;
-  return series;
-}
-
 /// By the methods' medians: single lucky samples near 0 do not ask for a logarithm.
 bool needsLogarithm(const std::vector<PlotSeries>& all)
 {
@@ -69,12 +59,27 @@ void addErrors(const MethodResult& method, PlotSeries& series)
 
 }  // namespace
 
+PlotSeries seriesOf(const std::vector<MethodResult>& methods, std::size_t index, PlotSeries::Style style)
+{
+  const MethodResult& method = methods.at(index);
+  const auto place = std::size_t(std::count_if(methods.begin(), methods.begin() + std::ptrdiff_t(index),
+    [&](const MethodResult& earlier) { return earlier.target == method.target; }));
+  const bool isBoard = method.target == ComparedMethod::Target::Board;
+  PlotSeries series;
+  series.label = method.name;
+  series.color = seriesColor(place);
+  series.marker = isBoard ? 3 + int(place % 2) : int(place % 3);
+  series.isDashed = isBoard;
+  series.style = style;
+  return series;
+}
+
 std::optional<Plot> errorAgainstDistance(const std::vector<MethodResult>& methods)
 {
   std::vector<PlotSeries> all;
   for (std::size_t i = 0; i < methods.size(); ++i)
   {
-    PlotSeries series = seriesOf(methods[i], i, PlotSeries::Style::Dots);
+    PlotSeries series = seriesOf(methods, i, PlotSeries::Style::Dots);
     addErrors(methods[i], series);
     all.push_back(std::move(series));
   }
@@ -92,11 +97,11 @@ std::optional<Plot> errorAgainstSamples(const std::vector<MethodResult>& methods
   std::vector<PlotSeries> all;
   for (std::size_t i = 0; i < methods.size(); ++i)
   {
-    PlotSeries series = seriesOf(methods[i], i, PlotSeries::Style::LineAndDots);
+    PlotSeries series = seriesOf(methods, i, PlotSeries::Style::LineAndDots);
     for (const SubsetErrors& subset : methods[i].subsets)
     {
-      // A median over the few that happened to work would flatter.
-      if (2 * subset.usable >= subset.repetitions && subset.usable > 0)
+      // With the failures as the worst, the median is none where half of the subsets failed.
+      if (std::isfinite(subset.medianPx) && subset.usable > 0)
       {
         series.x.push_back(subset.sampleCount);
         series.y.push_back(subset.medianPx);
@@ -120,10 +125,10 @@ std::optional<Plot> shareBelowError(const std::vector<MethodResult>& methods)
   std::vector<PlotSeries> all;
   for (std::size_t i = 0; i < methods.size(); ++i)
   {
-    PlotSeries errors = seriesOf(methods[i], i, PlotSeries::Style::LineAndDots);
+    PlotSeries errors = seriesOf(methods, i, PlotSeries::Style::LineAndDots);
     addErrors(methods[i], errors);
     std::sort(errors.y.begin(), errors.y.end());
-    PlotSeries series = seriesOf(methods[i], i, PlotSeries::Style::LineAndDots);
+    PlotSeries series = seriesOf(methods, i, PlotSeries::Style::LineAndDots);
     for (int k = 0; k <= steps && !errors.y.empty(); ++k)
     {
       const std::size_t last = std::size_t(std::lround(double(k) / steps * double(errors.y.size() - 1)));
@@ -194,14 +199,14 @@ std::optional<Plot> errorDirections(const ValidationStepResult& validation)
 std::optional<int> plateauOf(const MethodResult& method)
 {
   std::optional<int> plateau;
-  if (method.subsets.size() < 3 || method.subsets.back().usable == 0)
+  if (method.subsets.size() < 3 || method.subsets.back().usable == 0 || !std::isfinite(method.subsets.back().medianPx))
   {
     return plateau;
   }
   const double reached = method.subsets.back().medianPx;
   for (auto subset = method.subsets.rbegin(); subset != method.subsets.rend(); ++subset)
   {
-    if (2 * subset->usable < subset->repetitions || subset->medianPx > 1.1 * reached)
+    if (subset->medianPx > 1.1 * reached)
     {
       break;
     }

@@ -15,7 +15,7 @@ ReportDocument::Verdict verdictOf(const Summary& errorPx)
                             : ReportDocument::Verdict::Poor;
 }
 
-void addPlot(ReportDocument& document, const std::optional<Plot>& plot, const std::string& caption)
+void addPlot(ReportDocument& document, const std::optional<Plot>& plot, const std::string& caption, const PlotDrawer& draw)
 {
   if (!plot)
   {
@@ -25,7 +25,7 @@ void addPlot(ReportDocument& document, const std::optional<Plot>& plot, const st
   {
     Figure figure;
     figure.caption = plot->title + ". " + caption;
-    figure.picture = drawPlot(*plot);
+    figure.picture = draw(*plot);
     document.blocks.push_back(std::move(figure));
   }
   catch (const std::runtime_error& error)

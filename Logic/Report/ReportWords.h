@@ -19,7 +19,8 @@ namespace handeye::report
 ReportDocument::Verdict verdictOf(const Summary& errorPx);
 
 /// Draws a plot, if there is one, and adds it with its caption; a sentence where nothing can be rendered.
-void addPlot(ReportDocument& document, const std::optional<Plot>& plot, const std::string& caption);
+void addPlot(
+  ReportDocument& document, const std::optional<Plot>& plot, const std::string& caption, const PlotDrawer& draw = drawPlot);
 
 /// At most so many of a list: the first, the last, and evenly those between.
 template<typename T> std::vector<T> spreadOut(const std::vector<T>& all, std::size_t most)

@@ -135,7 +135,8 @@ std::string errorsOf(const ValidationStepResult& result)
   return text;
 }
 
-report::ReportDocument makeDocument(const ValidationStepResult& result, const io::Recording& recording)
+report::ReportDocument makeDocument(
+  const ValidationStepResult& result, const io::Recording& recording, const report::PlotDrawer& draw)
 {
   report::ReportDocument document;
   document.title = "Validation of a hand-eye calibration";
@@ -145,10 +146,11 @@ report::ReportDocument makeDocument(const ValidationStepResult& result, const io
   if (result.isUsable())
   {
     document.blocks.push_back(summaryTable(result));
-    report::addPlot(
-      document, report::errorAgainstDistance(result), "Each dot is a frame. Tracking noise, in mm, grows towards the camera.");
+    report::addPlot(document, report::errorAgainstDistance(result),
+      "Each dot is a frame. Tracking noise, in mm, grows towards the camera.", draw);
     report::addPlot(document, report::errorDirections(result),
-      "Each dot is a frame. Dots around the cross are noise; a cloud beside it is a bias of calibration, lens, tip or latency.");
+      "Each dot is a frame. Dots around the cross are noise; a cloud beside it is a bias of calibration, lens, tip or latency.",
+      draw);
   }
   document.blocks.push_back(report::Heading{ "Frames" });
   document.blocks.push_back(framesTable(result));
@@ -169,7 +171,8 @@ report::ReportDocument makeDocument(const ValidationStepResult& result, const io
 
 }  // namespace
 
-void writeValidationReport(const std::filesystem::path& folder, const ValidationStepResult& result, const io::Recording& recording)
+void writeValidationReport(const std::filesystem::path& folder, const ValidationStepResult& result, const io::Recording& recording,
+  const report::PlotDrawer& drawPlot)
 {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -185,7 +188,7 @@ void writeValidationReport(const std::filesystem::path& folder, const Validation
         report::drawFrame(recording.image(frame.captured.frame), frame.captured.ball, projectedOf(frame)));
     }
   }
-  report::writeReport(folder, makeDocument(result, recording));
+  report::writeReport(folder, makeDocument(result, recording, drawPlot));
 }
 
 }  // namespace handeye

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Recording.h"
+#include "ReportPlot.h"
 #include "ValidationStep.h"
 
 #include <filesystem>
@@ -18,6 +19,7 @@ namespace handeye
 /// @param folder made if it is not there
 /// @throws io::FileError where something cannot be written
 /// Plots and pages as report::drawPlot() and report::writeReport(): one thread, the application's.
-void writeValidationReport(const std::filesystem::path& folder, const ValidationStepResult& result, const io::Recording& recording);
+void writeValidationReport(const std::filesystem::path& folder, const ValidationStepResult& result, const io::Recording& recording,
+  const report::PlotDrawer& drawPlot = report::drawPlot);
 
 }  // namespace handeye

@@ -59,6 +59,15 @@ struct StudyCameraResult
   int renderedEyes = 0;
 };
 
+/// One thing that is to hold of a camera, with what was measured; where it does not hold, with the reason in numbers.
+struct StudyCheck
+{
+  std::string what;  ///< "lowest maximum of the six methods"
+  bool holds = false;
+  std::string measured;  ///< "ml 3.71 px, tsai 3.47 px"
+  std::string reason;    ///< empty where it holds
+};
+
 /// Whether what the paper reports holds for a camera.
 struct StudyClaim
 {
@@ -70,6 +79,7 @@ struct StudyClaim
   double branchAndBoundMaximum = 0;
   double trackedBoardMean = 0;        ///< the mean error of `tracked-board` over that of `ml`; 0 where it gave none
   double branchAndBoundTrueMean = 0;  ///< the same of the calibrations' own errors
+  std::vector<StudyCheck> checks;     ///< mean and maximum, as validated and the calibrations' own; the factor of three
   std::string message;
 };
 
@@ -92,6 +102,9 @@ struct StudyResult
 /// @throws std::invalid_argument as StudyOptions::check(); std::runtime_error where a camera's features are not found in its
 /// pictures Thread-safe.
 [[nodiscard]] StudyResult runStudy(const StudyOptions& options);
+
+/// What holds of a camera's results and what does not, and why; see StudyClaim::checks.
+[[nodiscard]] std::vector<StudyCheck> checkClaims(const StudyCameraResult& result);
 
 /// Judges a camera's results; see StudyClaim.
 [[nodiscard]] StudyClaim judgeClaim(const StudyCameraResult& result);

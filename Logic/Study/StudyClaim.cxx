@@ -41,7 +41,12 @@ std::string describe(const StudyClaim& claim, const MethodResult& ours, const St
   {
     text += "; a board that is tracked has " + ratioWords(claim.trackedBoardMean) + " the mean";
   }
-  return text + ".";
+  text += ".";
+  for (const StudyCheck& check : claim.checks)
+  {
+    text += check.holds ? std::string() : " Does not hold: " + check.what + " (" + check.measured + ").";
+  }
+  return text;
 }
 
 }  // namespace
@@ -83,6 +88,7 @@ StudyClaim judgeClaim(const StudyCameraResult& result)
   }
   const MethodResult* tracked = find(result.comparison, "tracked-board");
   claim.trackedBoardMean = tracked != nullptr && ours->errorPx.mean > 0 ? tracked->errorPx.mean / ours->errorPx.mean : 0;
+  claim.checks = checkClaims(result);
   claim.message = describe(claim, *ours, result);
   return claim;
 }

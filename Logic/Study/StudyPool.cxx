@@ -65,7 +65,7 @@ void poolSubsets(const std::vector<const StudyTask*>& tasks, std::vector<MethodR
           if (one.name == method.name)
           {
             ++attempts[subset.sampleCount];
-            if (subset.usable > 0)
+            if (std::isfinite(subset.medianPx))
             {
               means[subset.sampleCount].push_back(subset.medianPx);
             }
@@ -78,15 +78,7 @@ void poolSubsets(const std::vector<const StudyTask*>& tasks, std::vector<MethodR
       SubsetErrors pooled;
       pooled.sampleCount = size;
       pooled.repetitions = count;
-      std::vector<double>& values = means[size];
-      pooled.usable = int(values.size());
-      if (!values.empty())
-      {
-        std::sort(values.begin(), values.end());
-        pooled.medianPx = median(values);
-        pooled.lowestPx = values[std::size_t(std::lround(0.1 * double(values.size() - 1)))];
-        pooled.highestPx = values[std::size_t(std::lround(0.9 * double(values.size() - 1)))];
-      }
+      pooled.summarize(means[size]);
       method.subsets.push_back(pooled);
     }
   }

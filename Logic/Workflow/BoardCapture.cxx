@@ -5,6 +5,8 @@
 #include "FileError.h"
 #include "TimedPose.h"
 
+#include <map>
+
 namespace handeye
 {
 
@@ -52,6 +54,21 @@ std::vector<BoardFrame> readBoardFrames(
     }
   }
   return frames;
+}
+
+std::string countStatuses(const std::vector<BoardFrame>& frames)
+{
+  std::map<std::string, int> counts;
+  for (const BoardFrame& frame : frames)
+  {
+    counts[frame.status] += frame.status == "ok" ? 0 : 1;
+  }
+  std::string text;
+  for (const auto& [status, count] : counts)
+  {
+    text += count == 0 ? std::string() : (text.empty() ? "" : ", ") + std::to_string(count) + " " + status;
+  }
+  return text;
 }
 
 std::vector<LensView> selectLensViews(std::vector<BoardFrame>& frames, LensViewCollector* collector)

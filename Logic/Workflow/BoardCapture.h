@@ -32,6 +32,9 @@ struct BoardFrame
 std::vector<BoardFrame> readBoardFrames(const io::Recording& recording, const BoardDescription& board,
   const BoardDetectionOptions& options = {}, const Progress& progress = {});
 
+/// "3 not_found, 2 blurred", or nothing where all are "ok".
+std::string countStatuses(const std::vector<BoardFrame>& frames);
+
 /// The views for the lens among the frames, in their order: those that the collector takes, or all that show the board.
 /// Frames that are not taken have the collector's verdict as their status.
 /// @param collector empty for all

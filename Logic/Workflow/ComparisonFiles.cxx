@@ -5,6 +5,7 @@
 #include "JsonEigen.h"
 
 #include <charconv>
+#include <cmath>
 
 namespace handeye
 {
@@ -55,6 +56,8 @@ nlohmann::json methodJson(const MethodResult& method)
   if (method.isUsable())
   {
     json["projectionErrorPx"] = summaryJson(method.errorPx);
+    json["commonProjectionErrorPx"] = summaryJson(method.commonErrorPx);
+    json["successShare"] = method.successShare;
   }
   for (const ComparedCapture& capture : method.captures)
   {
@@ -63,11 +66,14 @@ nlohmann::json methodJson(const MethodResult& method)
   for (const SubsetErrors& subset : method.subsets)
   {
     nlohmann::json one = { { "samples", subset.sampleCount }, { "repetitions", subset.repetitions }, { "usable", subset.usable } };
-    if (subset.usable > 0)
+    const std::pair<const char*, double> percentiles[] = { { "medianPx", subset.medianPx }, { "percentile10Px", subset.lowestPx },
+      { "percentile90Px", subset.highestPx } };
+    for (const auto& [key, value] : percentiles)
     {
-      one["medianPx"] = subset.medianPx;
-      one["percentile10Px"] = subset.lowestPx;
-      one["percentile90Px"] = subset.highestPx;
+      if (std::isfinite(value))
+      {
+        one[key] = value;
+      }
     }
     json["subsets"].push_back(one);
   }
@@ -108,14 +114,16 @@ nlohmann::json comparisonJson(const ComparisonResult& result)
 {
   nlohmann::json json = { { "schema", "handeye-comparison/1" }, { "status", result.status }, { "message", result.message },
     { "validationSamples", result.validationCount }, { "ranking", nlohmann::json::array() },
-    { "notToldApartFromBest", nlohmann::json::array() }, { "methods", nlohmann::json::array() } };
-  for (const int index : result.ranking)
+    { "incomplete", nlohmann::json::array() }, { "notToldApartFromBest", nlohmann::json::array() },
+    { "methods", nlohmann::json::array() } };
+  const std::pair<const char*, const std::vector<int>*> lists[] = { { "ranking", &result.ranking },
+    { "incomplete", &result.incomplete }, { "notToldApartFromBest", &result.notToldApart } };
+  for (const auto& [key, indices] : lists)
   {
-    json["ranking"].push_back(result.methods[std::size_t(index)].name);
-  }
-  for (const int index : result.notToldApart)
-  {
-    json["notToldApartFromBest"].push_back(result.methods[std::size_t(index)].name);
+    for (const int index : *indices)
+    {
+      json[key].push_back(result.methods[std::size_t(index)].name);
+    }
   }
   for (const MethodResult& method : result.methods)
   {
@@ -127,7 +135,7 @@ nlohmann::json comparisonJson(const ComparisonResult& result)
 std::string methodsCsv(const ComparisonResult& result)
 {
   std::string text = line({ "method", "target", "status", "mean_px", "std_px", "min_px", "max_px", "rms_px", "errors",
-    "calibrations", "captures", "median_seconds", "title", "reference", "message" });
+    "calibrations", "captures", "median_seconds", "common_mean_px", "common_errors", "title", "reference", "message" });
   for (const MethodResult& method : result.methods)
   {
     const Summary& error = method.errorPx;
@@ -135,8 +143,9 @@ std::string methodsCsv(const ComparisonResult& result)
     const auto number = [&](double value) { return ok ? csvNumber(value) : std::string(); };
     text += line({ method.name, toString(method.target), method.status, number(error.mean), number(error.standardDeviation),
       number(error.minimum), number(error.maximum), number(error.rms), std::to_string(error.count),
-      std::to_string(method.usableCount()), std::to_string(method.captures.size()), csvNumber(method.medianSeconds()), method.title,
-      method.reference, method.message });
+      std::to_string(method.usableCount()), std::to_string(method.captures.size()), csvNumber(method.medianSeconds()),
+      number(method.commonErrorPx.mean), std::to_string(method.commonErrorPx.count), method.title, method.reference,
+      method.message });
   }
   return text;
 }
@@ -172,7 +181,7 @@ std::string subsetsCsv(const ComparisonResult& result)
   {
     for (const SubsetErrors& subset : method.subsets)
     {
-      const auto number = [&](double value) { return subset.usable > 0 ? csvNumber(value) : std::string(); };
+      const auto number = [&](double value) { return std::isfinite(value) ? csvNumber(value) : std::string(); };
       text += line({ method.name, std::to_string(subset.sampleCount), std::to_string(subset.repetitions),
         std::to_string(subset.usable), number(subset.medianPx), number(subset.lowestPx), number(subset.highestPx) });
     }

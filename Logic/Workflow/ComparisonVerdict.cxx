@@ -13,10 +13,16 @@ namespace handeye
 namespace
 {
 
-/// The errors by capture and sample, for pairing two methods.
-std::map<std::pair<int, int>, double> errorsOf(const MethodResult& method)
+/// A method with fewer than this share of what the most reliable one has is not ranked with the others.
+constexpr double LeastSuccess = 0.9;
+
+/// Errors (px) by capture and sample.
+using ErrorMap = std::map<std::pair<int, int>, double>;
+
+/// For pairing methods.
+ErrorMap errorsOf(const MethodResult& method)
 {
-  std::map<std::pair<int, int>, double> errors;
+  ErrorMap errors;
   for (std::size_t capture = 0; capture < method.captures.size(); ++capture)
   {
     const std::vector<HandEyeValidationSample>& samples = method.captures[capture].validation.samples;
@@ -77,7 +83,74 @@ bool areAlike(const MethodResult& a, const MethodResult& b)
 
 std::string errorWords(const MethodResult& method)
 {
-  return fixedDigits(method.errorPx.mean, 2) + " px mean, " + fixedDigits(method.errorPx.maximum, 2) + " px at most";
+  return fixedDigits(method.commonErrorPx.mean, 2) + " px mean, " + fixedDigits(method.commonErrorPx.maximum, 2) + " px at most";
+}
+
+/// Of `errors` those that the method has as well; and the method's there.
+ErrorMap alsoIn(const ErrorMap& errors, const ErrorMap& method)
+{
+  ErrorMap both;
+  for (const auto& [key, error] : errors)
+  {
+    if (method.count(key) > 0)
+    {
+      both[key] = error;
+    }
+  }
+  return both;
+}
+
+Summary summaryOf(const ErrorMap& errors)
+{
+  std::vector<double> values;
+  for (const auto& [key, error] : errors)
+  {
+    values.push_back(error);
+  }
+  return summarize(values);
+}
+
+/// What a method compares with others by: its errors where all of `ranked` have one; its own where there is no such place.
+void findCommonErrors(ComparisonResult& result, const std::vector<int>& ranked)
+{
+  std::vector<ErrorMap> all;
+  for (const int index : ranked)
+  {
+    all.push_back(errorsOf(result.methods[std::size_t(index)]));
+  }
+  for (std::size_t i = 0; i < ranked.size(); ++i)
+  {
+    ErrorMap common = all[i];
+    for (const ErrorMap& other : all)
+    {
+      common = alsoIn(common, other);
+    }
+    MethodResult& method = result.methods[std::size_t(ranked[i])];
+    method.commonErrorPx = common.empty() ? method.errorPx : summaryOf(common);
+  }
+}
+
+/// Whose results are complete enough to be ranked; the others go into `incomplete`, those with most results first.
+std::vector<int> sortOutIncomplete(ComparisonResult& result)
+{
+  double best = 0;
+  for (const MethodResult& method : result.methods)
+  {
+    best = std::max(best, method.isUsable() ? method.successShare : 0);
+  }
+  std::vector<int> ranked;
+  for (std::size_t i = 0; i < result.methods.size(); ++i)
+  {
+    MethodResult& method = result.methods[i];
+    method.commonErrorPx = method.errorPx;
+    if (method.isUsable())
+    {
+      (method.successShare >= LeastSuccess * best ? ranked : result.incomplete).push_back(int(i));
+    }
+  }
+  const auto share = [&](int index) { return result.methods[std::size_t(index)].successShare; };
+  std::stable_sort(result.incomplete.begin(), result.incomplete.end(), [&](int a, int b) { return share(a) > share(b); });
+  return ranked;
 }
 
 /// The best method of a target, in the order of the ranking; null where there is none.
@@ -103,6 +176,25 @@ std::string describeRivals(const ComparisonResult& result)
   return names.empty() ? std::string() : " Not told apart from it by these data: " + names + ".";
 }
 
+/// Those that are not ranked with the others, each beside the best one on the same cases.
+std::string describeIncomplete(const ComparisonResult& result)
+{
+  std::string text;
+  const MethodResult& best = result.methods[std::size_t(result.ranking.front())];
+  for (const int index : result.incomplete)
+  {
+    const MethodResult& method = result.methods[std::size_t(index)];
+    const ErrorMap own = errorsOf(method);
+    const ErrorMap same = alsoIn(errorsOf(best), own);
+    text += (text.empty() ? " Not ranked with the others, having no result where they have one: " : "; ") + method.name + " (" +
+      std::to_string(method.usableCount()) + " of " + std::to_string(method.captures.size()) + " calibrations, " +
+      fixedDigits(method.errorPx.mean, 2) + " px mean over what it has" +
+      (same.empty() || &method == &best ? "" : ", where " + best.name + " has " + fixedDigits(summaryOf(same).mean, 2) + " px") +
+      ")";
+  }
+  return text.empty() ? text : text + ".";
+}
+
 std::string describeFailures(const ComparisonResult& result)
 {
   std::string names;
@@ -123,15 +215,16 @@ std::string describe(const ComparisonResult& result)
 {
   const MethodResult& best = result.methods[std::size_t(result.ranking.front())];
   std::string text = "The lowest mean projection error has " + best.name + " (" + best.title + "): " + errorWords(best) +
-    ", over " + std::to_string(best.errorPx.count) + " validation samples.";
+    ", over " + std::to_string(best.commonErrorPx.count) + " validation samples" +
+    (best.commonErrorPx.count < best.errorPx.count ? " that every ranked method has a result for." : ".");
   text += describeRivals(result);
   const auto other = best.target == ComparedMethod::Target::Ball ? ComparedMethod::Target::Board : ComparedMethod::Target::Ball;
   if (const MethodResult* second = bestOf(result, other))
   {
     text += std::string(" The best of the methods with a ") + toString(other) + " is " + second->name + ": " + errorWords(*second) +
-      ", " + fixedDigits(second->errorPx.mean / best.errorPx.mean, 1) + " times the mean.";
+      ", " + fixedDigits(second->commonErrorPx.mean / best.commonErrorPx.mean, 1) + " times the mean.";
   }
-  return text + describeFailures(result);
+  return text + describeIncomplete(result) + describeFailures(result);
 }
 
 }  // namespace
@@ -156,9 +249,11 @@ void summarizeMethod(MethodResult& method)
 {
   std::vector<double> errors;
   const MethodAnswer* failure = nullptr;
+  std::size_t balls = 0;
   for (const ComparedCapture& capture : method.captures)
   {
     failure = failure == nullptr && !capture.answer.isUsable() ? &capture.answer : failure;
+    balls = std::max(balls, capture.validation.samples.size());
     for (const HandEyeValidationSample& sample : capture.validation.samples)
     {
       if (sample.status == CameraModel::Status::Ok)
@@ -168,6 +263,7 @@ void summarizeMethod(MethodResult& method)
     }
   }
   method.errorPx = summarize(errors);
+  method.successShare = balls > 0 ? double(errors.size()) / double(balls * method.captures.size()) : 0;
   const int usable = method.usableCount(), total = int(method.captures.size());
   if (usable == 0)
   {
@@ -184,18 +280,15 @@ void summarizeMethod(MethodResult& method)
 
 void judgeComparison(ComparisonResult& result)
 {
-  result.ranking.clear();
   result.notToldApart.clear();
-  for (std::size_t i = 0; i < result.methods.size(); ++i)
-  {
-    if (result.methods[i].isUsable())
-    {
-      result.ranking.push_back(int(i));
-    }
-  }
-  const auto mean = [&](int index) { return result.methods[std::size_t(index)].errorPx.mean; };
+  result.incomplete.clear();
+  result.ranking = sortOutIncomplete(result);
+  findCommonErrors(result, result.ranking);
+  const auto mean = [&](int index) { return result.methods[std::size_t(index)].commonErrorPx.mean; };
   std::stable_sort(result.ranking.begin(), result.ranking.end(), [&](int a, int b) { return mean(a) < mean(b); });
-  for (std::size_t i = 1; i < result.ranking.size(); ++i)
+  const std::size_t complete = result.ranking.size();
+  result.ranking.insert(result.ranking.end(), result.incomplete.begin(), result.incomplete.end());
+  for (std::size_t i = 1; i < complete; ++i)
   {
     const MethodResult& best = result.methods[std::size_t(result.ranking.front())];
     if (areAlike(best, result.methods[std::size_t(result.ranking[i])]))

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <stdexcept>
@@ -101,14 +102,7 @@ public:
         }
       }
     }
-    errors.usable = int(means.size());
-    if (!means.empty())
-    {
-      std::sort(means.begin(), means.end());
-      errors.medianPx = median(means);
-      errors.lowestPx = percentile(means, 0.1);
-      errors.highestPx = percentile(means, 0.9);
-    }
+    errors.summarize(std::move(means));
     return errors;
   }
 
@@ -211,6 +205,20 @@ MethodResult compareMethod(const ComparedMethod& method, const Comparer& compare
 }
 
 }  // namespace
+
+void SubsetErrors::summarize(std::vector<double> means)
+{
+  usable = int(means.size());
+  means.resize(std::size_t(std::max(repetitions, usable)), std::numeric_limits<double>::infinity());
+  if (!means.empty())
+  {
+    std::sort(means.begin(), means.end());
+    // Between a number and infinity there is no middle.
+    medianPx = std::isfinite(means[means.size() / 2]) ? median(means) : std::numeric_limits<double>::infinity();
+    lowestPx = percentile(means, 0.1);
+    highestPx = percentile(means, 0.9);
+  }
+}
 
 void ComparisonOptions::check() const
 {

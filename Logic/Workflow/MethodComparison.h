@@ -74,15 +74,19 @@ struct ComparedCapture
   HandEyeValidationResult validation;  ///< empty unless the answer is usable
 };
 
-/// Random subsets of one size.
+/// Random subsets of one size. A subset that gave no calibration counts as worse than any that did: a percentile that falls among
+/// such is infinite, so that no method looks good by failing where it is difficult.
 struct SubsetErrors
 {
   int sampleCount = 0;
   int repetitions = 0;
   int usable = 0;        ///< of the repetitions
-  double medianPx = 0;   ///< of the mean projection errors on the validation set; meaningful if there are usable ones
+  double medianPx = 0;   ///< of the mean projection errors on the validation set
   double lowestPx = 0;   ///< their 10th
   double highestPx = 0;  ///< and 90th percentile
+
+  /// Percentiles of the mean errors (px) of those that were usable.
+  void summarize(std::vector<double> means);
 };
 
 /// How alike calibrations from different data are: root mean squares about their mean.
@@ -104,6 +108,8 @@ struct MethodResult
   bool isOurs = false;
   std::vector<ComparedCapture> captures;  ///< in the order of the method's captures
   Summary errorPx;                        ///< over all usable captures and all validation samples
+  Summary commonErrorPx;                  ///< where every ranked method has an error: what the ranking compares
+  double successShare = 0;                ///< of the errors that it would have, had no capture failed and no ball left the view
   std::string status;                     ///< "ok" if one capture at least was usable; otherwise that of the first
   std::string message;                    ///< what became of the captures that were not usable; otherwise the answer's own
   std::vector<SubsetErrors> subsets;
@@ -117,7 +123,10 @@ struct MethodResult
 struct ComparisonResult
 {
   std::vector<MethodResult> methods;  ///< in the order given
-  std::vector<int> ranking;           ///< indices of the usable ones, lowest mean error first
+  /// Indices of the usable ones: by their mean error where all of them have one, the lowest first; then those of `incomplete`.
+  std::vector<int> ranking;
+  /// Usable ones that failed so much more often than others that their mean is one of easy cases: ranked after all others.
+  std::vector<int> incomplete;
   /// Of the ranking, those whose mean error cannot be told from the best one's: the paired difference over the validation samples
   /// (from 5 captures on: over the captures) is below twice its standard error or, with fewer captures, below what another capture
   /// would have changed.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoardOptions.h"
 
-#include <map>
 #include <stdexcept>
 
 namespace handeye::cli
@@ -50,21 +49,6 @@ CLI::App* cameraGroup(CLI::App& app)
   camera->description("Lenses: camera files, calibration from pictures of a board, boards to print");
   camera->require_subcommand(1);
   return camera;
-}
-
-std::string countStatuses(const std::vector<BoardFrame>& frames)
-{
-  std::map<std::string, int> counts;
-  for (const BoardFrame& frame : frames)
-  {
-    counts[frame.status] += frame.status == "ok" ? 0 : 1;
-  }
-  std::string text;
-  for (const auto& [status, count] : counts)
-  {
-    text += count == 0 ? std::string() : (text.empty() ? "" : ", ") + std::to_string(count) + " " + status;
-  }
-  return text;
 }
 
 }  // namespace handeye::cli

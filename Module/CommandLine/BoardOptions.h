@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "BoardCapture.h"
 #include "BoardDescription.h"
 
 #include <CLI/CLI.hpp>
 
 #include <string>
-#include <vector>
 
 namespace handeye::cli
 {
@@ -21,8 +19,5 @@ void addBoardArgument(CLI::App& command, std::string& board);
 
 /// The subcommand group `camera`, made by whoever comes first.
 CLI::App* cameraGroup(CLI::App& app);
-
-/// "3 not_found, 2 blurred", or nothing where all are "ok".
-std::string countStatuses(const std::vector<BoardFrame>& frames);
 
 }  // namespace handeye::cli

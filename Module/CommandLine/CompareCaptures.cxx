@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CompareCaptures.h"
 
-#include "BoardOptions.h"
+#include "ComparedBoardCapture.h"
 #include "StopSignal.h"
 #include "TimedPose.h"
 
@@ -47,21 +47,10 @@ void readBoards(const CompareInputs& inputs, const CommandOutput& output, Compar
   for (const std::string& path : inputs.boardRecordings)
   {
     const io::Recording recording = openRecording(path, inputs.tools, output);
-    (void)cameraForRecording(captures.camera, recording);
-    std::vector<BoardFrame> frames =
-      readBoardFrames(recording, *inputs.board, {}, stoppable(output.progress("looking for the board, " + path + ", frame")));
-    std::vector<BoardHandEyeView> views = boardHandEyeViews(recording, inputs.tools, inputs.trackedBoard, frames);
-    const std::string left = countStatuses(frames);
-    std::string note;
-    if (inputs.board->looksTheSameTurned())
-    {
-      const std::optional<int> turned = resolveHalfTurns(views, *inputs.board, captures.camera);
-      note = turned ? ", " + std::to_string(*turned) + " of them numbered from the other end" : ", whose ends cannot be told apart";
-    }
-    captures.facts.push_back("Board: " + path + ", " + toString(*inputs.board) + ", found and tracked in " +
-      std::to_string(views.size()) + " of " + std::to_string(recording.frameCount()) + " frames" + note +
-      (left.empty() ? "" : "; the others: " + left) + ".");
-    captures.boards.push_back(std::move(views));
+    ComparedBoardCapture board = readComparedBoard(recording, *inputs.board, captures.camera, inputs.tools, inputs.trackedBoard,
+      stoppable(output.progress("looking for the board, " + path + ", frame")));
+    captures.facts.push_back(board.fact);
+    captures.boards.push_back(std::move(board.views));
   }
 }
 

@@ -10,6 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <tuple>
+
 using namespace handeye;
 using namespace handeye::test;
 using handeye::io::test::readBytes;
@@ -90,15 +93,17 @@ TEST_F(ComparisonReport, Folder_HoldsPagePdfAndData)
 
 TEST_F(ComparisonReport, Tables_HoldTheResultsNumbers)
 {
-  const report::Table table = report::methodsTable(result.methods, "");
+  const report::Table table = report::methodsTable(result, "");
   ASSERT_EQ(table.rows.size(), 9U);
   char mean[16];
   std::snprintf(mean, sizeof(mean), "%.2f", result.methods[0].errorPx.mean);
   EXPECT_EQ(table.rows[0][0], "ml");
-  EXPECT_EQ(table.rows[0][3], mean);
+  EXPECT_EQ(table.rows[std::size_t(result.ranking[0])][3], "1");
+  EXPECT_EQ(table.rows[0][4], mean);
   EXPECT_EQ(table.rows[8][2], "parallel_motions");
-  EXPECT_EQ(table.rows[8][3], "") << "no number for a method that failed";
-  EXPECT_EQ(table.rows[8][9], "0 of 1");
+  EXPECT_EQ(table.rows[8][3], "") << "no rank";
+  EXPECT_EQ(table.rows[8][4], "") << "no number for a method that failed";
+  EXPECT_EQ(table.rows[8][10], "0 of 1");
   const report::Table subsets = report::subsetsTable(result.methods);
   EXPECT_EQ(subsets.headings.back(), "15");
   EXPECT_EQ(subsets.rows[0][1], "none") << "three points have no single answer";
@@ -113,6 +118,32 @@ TEST_F(ComparisonReport, Plots_HaveAColourAMethod)
   EXPECT_EQ(plot->series[2].color, report::seriesColor(2));
   EXPECT_EQ(report::errorAgainstSamples(result.methods)->series[2].color, report::seriesColor(2));
   EXPECT_EQ(report::shareBelowError(result.methods)->series[0].y.back(), 100);
+}
+
+TEST_F(ComparisonReport, MethodThatIsRankedApart_IsMarked)
+{
+  ComparisonResult apart = result;
+  apart.incomplete = { result.ranking.back() };
+  const report::Table table = report::methodsTable(apart, "");
+  EXPECT_EQ(table.rows[std::size_t(result.ranking.back())][3], "apart");
+  EXPECT_NE(table.caption.find("apart: failed where others did not"), std::string::npos);
+}
+
+TEST_F(ComparisonReport, FourteenMethods_LookDifferent)
+{
+  std::vector<MethodResult> methods(16, result.methods.front());
+  for (std::size_t i = 9; i < methods.size(); ++i)
+  {
+    methods[i].target = ComparedMethod::Target::Board;
+  }
+  std::set<std::tuple<report::Color, int, bool>> looks;
+  for (std::size_t i = 0; i < methods.size(); ++i)
+  {
+    const report::PlotSeries series = report::seriesOf(methods, i, report::PlotSeries::Style::LineAndDots);
+    EXPECT_EQ(series.isDashed, i >= 9);
+    looks.insert({ series.color, series.marker, series.isDashed });
+  }
+  EXPECT_EQ(looks.size(), methods.size());
 }
 
 TEST_F(ComparisonReport, WithoutPictures_StillAReport)

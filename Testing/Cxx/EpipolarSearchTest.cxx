@@ -164,6 +164,35 @@ TEST(EpipolarSearch, WithoutAStart_FindsAndProvesTheOptimum)
   EXPECT_LE(alone.state.lowerBoundRad, helped.state.bestErrorRad);
 }
 
+TEST(EpipolarSearch, BoardWithNoise_IsProvenToTheGap)
+{
+  for (const unsigned seed : { 7U, 8U, 9U })
+  {
+    const Problem problem = makeProblem(12, Noisy, seed);
+    BoardHandEyeOptions options;
+    options.method = Method::BranchAndBound;
+    options.timeLimitSec = 500;  // 2 s of work; machines are shared
+    const BoardHandEyeResult result = calibrateBoardHandEye(problem.views, problem.scene.camera, options);
+    ASSERT_TRUE(result.isUsable()) << result.message;
+    const BranchAndBoundState& state = result.branchAndBound;
+    std::cout << "seed " << seed << ": error " << 1e3 * state.bestErrorRad << " mrad, bound " << 1e3 * state.lowerBoundRad << ", "
+              << state.cubes << " cubes, " << state.linearPrograms << " programs, " << state.elapsedSec << " s\n";
+    EXPECT_TRUE(state.isProven) << result.message;
+    EXPECT_LE(state.gapRad, std::max(options.gapRad, options.relativeGap * state.bestErrorRad) + 1e-12);
+    EXPECT_GT(state.lowerBoundRad, 0.8 * state.bestErrorRad);
+    // Nothing near the truth is below the bound.
+    Random random(seed);
+    const std::vector<EpipolarPair>& pairs = problem.pairs;
+    const Eigen::Isometry3d& truth = problem.scene.markerToCamera;
+    for (int i = 0; i < 2000; ++i)
+    {
+      const Eigen::Matrix3d rotation = result.markerToCamera.linear() * rotationFromVector(random.normal3(0.003));
+      const Eigen::Vector3d center = centerOf(i % 2 == 0 ? truth : result.markerToCamera) + random.normal3(2);
+      EXPECT_GE(epipolarErrorRad(pairs, rotation, center), state.lowerBoundRad);
+    }
+  }
+}
+
 TEST(EpipolarSearch, TimeLimitAndCancel_KeepTheBestAndItsGap)
 {
   const Problem problem = makeProblem(8, Noisy, 7);

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include <algorithm>
 
 using namespace handeye;
@@ -187,6 +189,68 @@ TEST(HandEyeStudy, Claim_IsJudgedByTheNumbers)
   EXPECT_NE(claim.message.find("the maximum not"), std::string::npos) << claim.message;
 }
 
+namespace
+{
+
+/// A method with one capture whose errors are these.
+MethodResult methodWith(const char* name, ComparedMethod::Target target, const std::vector<double>& errorsPx)
+{
+  MethodResult method;
+  method.name = name;
+  method.target = target;
+  ComparedCapture capture;
+  capture.answer.status = "ok";
+  capture.answer.markerToCamera = Eigen::Isometry3d::Identity();
+  for (const double error : errorsPx)
+  {
+    HandEyeValidationSample sample;
+    sample.errorPx = error;
+    capture.validation.samples.push_back(sample);
+  }
+  method.captures = { capture };
+  summarizeMethod(method);
+  return method;
+}
+
+}  // namespace
+
+TEST(HandEyeStudy, Checks_SayWhatDoesNotHoldAndWhy)
+{
+  StudyCameraResult result;
+  result.camera = studyCameras().back();
+  ASSERT_EQ(result.camera.name, "laparoscope");
+  result.floorPx = { 3, 0.9, 0, 0, 3.8, 1 };
+  result.comparison.methods = { methodWith("ml", ComparedMethod::Target::Ball, { 1, 4, 1 }),
+    methodWith("tsai", ComparedMethod::Target::Board, { 2.5, 2, 3 }),
+    methodWith("branch-and-bound", ComparedMethod::Target::Board, { 6, 4, 5 }),
+    methodWith("tracked-board", ComparedMethod::Target::Board, { 1, 1, 1 }) };
+  result.truth.methods = { methodWith("ml", ComparedMethod::Target::Ball, { 0.2, 0.3, 0.1 }),
+    methodWith("tsai", ComparedMethod::Target::Board, { 0.9, 0.7, 1.5 }),
+    methodWith("branch-and-bound", ComparedMethod::Target::Board, { 2, 2, 2 }),
+    methodWith("tracked-board", ComparedMethod::Target::Board, { 0.1, 0.1, 0.1 }) };
+  const std::vector<StudyCheck> checks = checkClaims(result);
+  ASSERT_EQ(checks.size(), 6U);
+  const auto& [mean, maximum, ownMean, ownMaximum] = std::tie(checks[0], checks[1], checks[2], checks[3]);
+  EXPECT_TRUE(mean.holds);
+  EXPECT_EQ(mean.reason, "");
+  EXPECT_EQ(mean.measured, "ml 2.00 px, tsai 2.50 px");
+  EXPECT_FALSE(maximum.holds);
+  EXPECT_EQ(maximum.measured, "ml 4.00 px, tsai 3.00 px");
+  EXPECT_NE(maximum.reason.find("one sample of 3. At that ball the calibration is off by 0.30 px itself; the rest of the 4.00 px"),
+    std::string::npos)
+    << maximum.reason;
+  EXPECT_NE(maximum.reason.find("without the validation's noise the largest errors are 0.30 px and 1.50 px"), std::string::npos)
+    << maximum.reason;
+  EXPECT_TRUE(ownMean.holds);
+  EXPECT_TRUE(ownMaximum.holds);
+  EXPECT_FALSE(checks[4].holds) << "the board that is tracked";
+  EXPECT_FALSE(checks[5].holds) << "2.5 times, not three";
+  EXPECT_EQ(checks[5].measured, "2.50 times; own errors 10.00 times");
+  EXPECT_NE(checks[5].reason.find("0.90 px of the 2.00 px are the tracker's noise"), std::string::npos) << checks[5].reason;
+  EXPECT_NE(
+    judgeClaim(result).message.find("Does not hold: lowest maximum, as validated (ml 4.00 px, tsai 3.00 px)"), std::string::npos);
+}
+
 TEST(HandEyeStudy, NarrowRange_IsWhyMotionsFail)
 {
   StudyOptions options = small();
@@ -212,6 +276,8 @@ TEST(HandEyeStudy, Report_HasATableACamera)
   const std::string html = readBytes(folder.path() / "report.html");
   EXPECT_NE(html.find(report::escapeHtml(result.message)), std::string::npos);
   EXPECT_NE(html.find("tracked-board-lines"), std::string::npos);
+  EXPECT_NE(html.find("lowest maximum of the calibrations&#39; own errors"), std::string::npos)
+    << "each statement, whether it holds";
   for (const char* const name : { "report.pdf", "webcam-methods.csv", "webcam-true.csv", "webcam-subsets.csv",
          "webcam-distance.png", "webcam-samples.png", "webcam-repeatability.csv", "webcam-tilt.png" })
   {

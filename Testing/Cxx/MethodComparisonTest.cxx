@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 using namespace handeye;
@@ -169,6 +170,92 @@ TEST_F(MethodComparison, DifferenceWithinTheNoise_IsNotToldApart)
   ASSERT_EQ(alike.notToldApart.size(), 1U);
   EXPECT_EQ(alike.notToldApart[0], alike.ranking[1]);
   EXPECT_EQ(alike.ranking[2], 2);
+}
+
+TEST_F(MethodComparison, MethodThatFailsOften_IsNotTheBest)
+{
+  // Perfect in the one capture of five that it can do, in which the others are good as well.
+  ComparedMethod patchy = known("patchy", std::vector<Eigen::Isometry3d>(5, truth));
+  patchy.calibrate = [whole = patchy.calibrate](int capture)
+  {
+    MethodAnswer answer = whole(capture);
+    answer.status = capture == 0 ? "ok" : "no_fit";
+    answer.message = "too difficult";
+    return answer;
+  };
+  const ComparedMethod steady = known("steady", { moved(0.1), moved(2), moved(2), moved(2), moved(2) });
+  const ComparisonResult result = compareMethods({ patchy, steady }, validation, camera);
+  ASSERT_EQ(result.status, "ok");
+  EXPECT_LT(result.methods[0].errorPx.mean, result.methods[1].errorPx.mean);
+  EXPECT_EQ(result.ranking, (std::vector<int>{ 1, 0 }));
+  EXPECT_EQ(result.incomplete, (std::vector<int>{ 0 }));
+  EXPECT_TRUE(result.notToldApart.empty());
+  EXPECT_NEAR(result.methods[0].successShare, 0.2, 1e-12);
+  EXPECT_NE(result.message.find("The lowest mean projection error has steady"), std::string::npos) << result.message;
+  EXPECT_NE(
+    result.message.find("patchy (1 of 5 calibrations, 0.00 px mean over what it has, where steady has 0.20 px)"), std::string::npos)
+    << result.message;
+  const nlohmann::json json = comparisonJson(result);
+  EXPECT_EQ(json["incomplete"], nlohmann::json::array({ "patchy" }));
+  EXPECT_EQ(json["ranking"], nlohmann::json::array({ "steady", "patchy" }));
+}
+
+TEST_F(MethodComparison, DifficultCaptureThatOneFails_IsLeftOutForAll)
+{
+  // The last of twenty captures is difficult: `brave` has a result there, `shy` has none.
+  std::vector<Eigen::Isometry3d> answers(20, moved(0.5));
+  answers.back() = moved(20);
+  const ComparedMethod brave = known("brave", answers);
+  ComparedMethod shy = known("shy", std::vector<Eigen::Isometry3d>(20, moved(0.6)));
+  shy.calibrate = [whole = shy.calibrate](int capture)
+  {
+    MethodAnswer answer = whole(capture);
+    answer.status = capture == 19 ? "no_fit" : "ok";
+    return answer;
+  };
+  const ComparisonResult result = compareMethods({ shy, brave }, validation, camera);
+  EXPECT_GT(result.methods[1].errorPx.mean, result.methods[0].errorPx.mean) << "over all that each has";
+  EXPECT_EQ(result.ranking, (std::vector<int>{ 1, 0 }));
+  EXPECT_TRUE(result.incomplete.empty());
+  EXPECT_EQ(result.methods[1].errorPx.count, 20 * 12);
+  EXPECT_EQ(result.methods[1].commonErrorPx.count, 19 * 12);
+  EXPECT_NEAR(result.methods[1].commonErrorPx.mean, 1, 1e-9);
+  EXPECT_NE(
+    result.message.find("1.00 px mean, 1.00 px at most, over 228 validation samples that every ranked method"), std::string::npos)
+    << result.message;
+}
+
+TEST_F(MethodComparison, SubsetsThatFail_CountAsTheWorst)
+{
+  ComparedMethod method = known("lucky", { truth });
+  method.subsetPool = 12;
+  int attempt = 0;
+  method.calibrateSome = [&](const std::vector<int>& samples)
+  {
+    // Of 3 samples one in five works, of 4 four in five, from 5 on all.
+    MethodAnswer answer;
+    const int fifth = attempt++ % 5;
+    const bool works = samples.size() > 4 || (samples.size() == 3 ? fifth == 0 : fifth != 0);
+    answer.status = works ? "ok" : "no_fit";
+    answer.markerToCamera = moved(0.5);
+    return answer;
+  };
+  ComparisonOptions options;
+  options.mostSamples = 5;
+  const ComparisonResult result = compareMethods({ method }, validation, camera, options);
+  const std::vector<SubsetErrors>& subsets = result.methods[0].subsets;
+  ASSERT_EQ(subsets.size(), 3U);
+  EXPECT_EQ(subsets[0].usable, 4);
+  EXPECT_TRUE(std::isinf(subsets[0].medianPx));
+  EXPECT_EQ(subsets[1].usable, 16);
+  EXPECT_NEAR(subsets[1].medianPx, 1, 1e-9);
+  EXPECT_TRUE(std::isinf(subsets[1].highestPx)) << "more than one in ten failed";
+  EXPECT_NEAR(subsets[2].highestPx, 1, 1e-9);
+  const nlohmann::json json = comparisonJson(result)["methods"][0]["subsets"];
+  EXPECT_FALSE(json[0].contains("medianPx"));
+  EXPECT_TRUE(json[1].contains("medianPx"));
+  EXPECT_FALSE(json[1].contains("percentile90Px"));
+  EXPECT_EQ(subsetsCsv(result).find("inf"), std::string::npos);
 }
 
 TEST_F(MethodComparison, Subsets_HaveTheSizesAndSeedsAskedFor)
