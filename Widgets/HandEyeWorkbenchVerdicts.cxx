@@ -60,10 +60,18 @@ QString HandEyeWorkbench::problemOf(WizardStep step) const
       {
         return tr("The samples are being looked at.");
       }
+      if (capture_->isBroken())
+      {
+        return tr("The stored samples have not been looked at to the end: press Look again.");
+      }
       return calibration_ && calibration_->isUsable() ? QString()
         : calibration_                                ? QString::fromStdString(calibration_->decisive().message)
                                                       : tr("Collect placements of the ball.");
     case WizardStep::Validation:
+      if (validationCapture_->isBroken())
+      {
+        return tr("The stored placements have not been looked at to the end: press Look again.");
+      }
       return validation_ && validation_->isUsable()
         ? QString()
         : tr("Hold the ball at a few other places, so that the calibration is tested on them.");
@@ -76,6 +84,19 @@ QString HandEyeWorkbench::problemOf(WizardStep step) const
       return {};
   }
   return {};
+}
+
+Level HandEyeWorkbench::levelOf(WizardStep step) const
+{
+  if (step == WizardStep::Capture && calibration_ && !isCalibrationLoaded_)
+  {
+    return errorLevel(calibration_->calibration.predicted.meanPx);
+  }
+  if (step == WizardStep::Validation && validation_)
+  {
+    return errorLevel(validation_->projectionErrorPx.mean);
+  }
+  return Level::Good;
 }
 
 QString HandEyeWorkbench::verdictOf(WizardStep step) const

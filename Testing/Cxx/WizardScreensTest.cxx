@@ -10,6 +10,7 @@
 #include <QDir>
 #include <QScreen>
 #include <QScrollArea>
+#include <QTemporaryDir>
 #include <QToolButton>
 
 using handeye::HandEyeWorkbench;
@@ -70,6 +71,7 @@ private:
   void takePictures(HandEyeCalibrationPanel& panel, const QSize& size, const QString& mark);
 
   QStringList faults_;
+  QTemporaryDir folder_{ QDir::tempPath() + QStringLiteral("/sessions-XXXXXX") };
 };
 
 /// A session with everything in it, and the demo's recording as live video.
@@ -77,6 +79,10 @@ void WizardScreensTest::fill(HandEyeCalibrationPanel& panel)
 {
   const QString demo = QStringLiteral(HANDEYE_RESOURCES_DIR "/Demo/");
   HandEyeWorkbench& workbench = panel.workbench();
+  // Names that say nothing of the machine: the pictures go into the documentation.
+  QSignalSpy opened(&workbench, &HandEyeWorkbench::sessionOpened);
+  workbench.openSession(folder_.filePath(QStringLiteral("2026-03-02_laparoscope")));
+  QTRY_VERIFY_WITH_TIMEOUT(!opened.isEmpty(), PatienceMs);
   handeye::DeviceSetup setup;
   setup.kind = handeye::DeviceSetup::Kind::Recording;
   setup.recording = demo + QStringLiteral("calibration");
