@@ -65,9 +65,11 @@ void FinishPage::enter()
 void FinishPage::refresh()
 {
   const QString folder = workbench_.sessionFolder();
-  ui_->sessionLabel->setText(folder.isEmpty() ? tr("No session is open.")
-                                              : tr("Everything is stored in <a href=\"%1\">%2</a>; nothing needs to be saved.")
-                                                  .arg(QUrl::fromLocalFile(folder).toString(), folder.toHtmlEscaped()));
+  // With its colour: a label does not look at the palette's again when that changes.
+  ui_->sessionLabel->setText(folder.isEmpty()
+      ? tr("No session is open.")
+      : tr("Everything is stored in <a href=\"%1\" style=\"color:%3\">%2</a>; nothing needs to be saved.")
+          .arg(QUrl::fromLocalFile(folder).toString(), folder.toHtmlEscaped(), palette().color(QPalette::Link).name()));
   QStringList lines;
   for (const WizardStep step : { WizardStep::Stylus, WizardStep::Capture, WizardStep::Validation, WizardStep::Overlay })
   {

@@ -44,6 +44,7 @@ SampleTable::SampleTable(QWidget* parent)
         d->adjustStatusColumn();
       }
     });
+  connect(d->view->horizontalHeader(), &QHeaderView::sortIndicatorChanged, this, [this] { d->fitColumns(); });
   connect(d->stack, &QUndoStack::indexChanged, this, [this] { d->updateActions(); });
   connect(d->view->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] { d->updateActions(); });
   connect(d->view->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
@@ -104,6 +105,7 @@ void SampleTable::setEditable(bool editable)
 void SampleTable::setResidualTitle(const QString& title)
 {
   d->model->setResidualTitle(title);
+  d->fitColumns();
 }
 
 void SampleTable::clearHistory()
@@ -204,6 +206,10 @@ void SampleTable::changeEvent(QEvent* event)
   if (event->type() == QEvent::PaletteChange)
   {
     d->view->viewport()->update();
+  }
+  else if (event->type() == QEvent::FontChange)
+  {
+    d->fitColumns();
   }
 }
 

@@ -4,8 +4,10 @@
 
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QStyle>
 #include <QToolButton>
 
+#include <algorithm>
 #include <utility>
 
 namespace handeye
@@ -84,13 +86,32 @@ void SampleTable::Private::setUpView()
   view->setIconSize({ 16, 16 });
   QHeaderView* header = view->horizontalHeader();
   header->setMinimumSectionSize(24);
-  header->setSectionResizeMode(QHeaderView::ResizeToContents);
-  header->setSectionResizeMode(SampleTableModel::Thumbnail, QHeaderView::Fixed);
-  header->resizeSection(SampleTableModel::Thumbnail, 76);
+  header->setSectionResizeMode(QHeaderView::Fixed);
+  header->resizeSection(SampleTableModel::Thumbnail, 70);
   header->setSectionResizeMode(SampleTableModel::Status, QHeaderView::Stretch);
   header->setHighlightSections(false);
   // The words come last: in a narrow panel the numbers are seen, and the words' icon.
   header->moveSection(header->visualIndex(SampleTableModel::Status), SampleTableModel::ColumnCount - 1);
+  fitColumns();
+}
+
+/// As wide as their titles and numbers. A header's own hint keeps room for the arrow of sorting in each column, too much for a panel.
+void SampleTable::Private::fitColumns()
+{
+  constexpr int ArrowPx = 16;
+  QHeaderView* header = view->horizontalHeader();
+  const QFontMetrics metrics = header->fontMetrics();
+  const int marginPx = 2 * header->style()->pixelMetric(QStyle::PM_HeaderMargin, nullptr, header) + 4;
+  for (const int column : { SampleTableModel::Use, SampleTableModel::Id, SampleTableModel::ResidualPx, SampleTableModel::ResidualMm,
+         SampleTableModel::DistanceMm })
+  {
+    int widest = metrics.horizontalAdvance(QStringLiteral("000"));
+    for (const QString& line : model->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString().split(QLatin1Char('\n')))
+    {
+      widest = std::max(widest, metrics.horizontalAdvance(line));
+    }
+    header->resizeSection(column, widest + marginPx + (header->sortIndicatorSection() == column ? ArrowPx : 0));
+  }
 }
 
 void SampleTable::Private::setUpActions()

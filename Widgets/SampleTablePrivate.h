@@ -37,6 +37,7 @@ public:
   void push(const QString& text, std::function<void()> apply, std::function<void()> revert);
   void setUpView();
   void setUpActions();
+  void fitColumns();
   void updateActions();
   void adjustStatusColumn();
   void requestExclusion(const QVector<int>& ids, bool excluded);

@@ -108,14 +108,14 @@ void WizardScreensTest::takePictures(HandEyeCalibrationPanel& panel, const QSize
   for (int i = 0; i < handeye::WizardStepCount; ++i)
   {
     panel.goTo(WizardStep(i));
-    QTest::qWait(i == int(WizardStep::Overlay) ? 4000 : 700);
+    QTest::qWait(i == int(WizardStep::Overlay) ? 4000 : 1500);
     // The video is drawn by OpenGL: it is taken from the screen.
     const QPixmap picture = panel.screen()->grabWindow(panel.winId());
     const QString name =
       QStringLiteral("%1/wizard-%2-%3%4x%5.png").arg(screenshotFolder()).arg(i + 1).arg(mark).arg(size.width()).arg(size.height());
     QVERIFY2(picture.save(name), qPrintable(name));
     const QWidget* page = panel.page(WizardStep(i));
-    for (const QString& fault : faultsOf(*panel.page(WizardStep(i))))
+    for (const QString& fault : faultsOf(panel))
     {
       faults_ << QStringLiteral("page %1: %2").arg(i + 1).arg(fault);
     }
