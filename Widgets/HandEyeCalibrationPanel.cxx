@@ -75,6 +75,8 @@ HandEyeCalibrationPanel::Private::Private(HandEyeCalibrationPanel& panel, Naviga
   ui.stepBarLayout->addWidget(steps, 0, 0);
   ui.progressBox->hide();
   wizard->setMinimumWidth(380);
+  // Most verdicts take two lines: there is room for them at once, and the page above does not move with the words.
+  ui.messageLabel->setMinimumHeight(2 * ui.messageLabel->fontMetrics().lineSpacing());
   makePages();
   makeVideo();
   connectAll();

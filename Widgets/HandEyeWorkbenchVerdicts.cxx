@@ -94,7 +94,10 @@ Level HandEyeWorkbench::levelOf(WizardStep step) const
   }
   if (step == WizardStep::Validation && validation_)
   {
-    return errorLevel(validation_->projectionErrorPx.mean);
+    // Few frames say little, however good they look; the verdict's own words ask for five.
+    constexpr int EnoughFrames = 5;
+    const Level level = errorLevel(validation_->projectionErrorPx.mean);
+    return level == Level::Good && validation_->projectionErrorPx.count < EnoughFrames ? Level::Warning : level;
   }
   return Level::Good;
 }
