@@ -139,6 +139,9 @@ public:
   /// The page of writeValidationReport(), with the pictures of the recording that was validated on.
   bool SaveValidationReport(const std::string& folder);
 
+  /// There is no result any more, and no evaluated capture: a new session begins. No event but ModifiedEvent; not while a step is running.
+  void ForgetResults();
+
   /// Stops the running step after the frame it is at; it then fails. No effect while no step is running.
   void RequestCancel();
 

@@ -148,6 +148,24 @@ void vtkSlicerHandEyeCalibrationLogic::SetStylusTip(double x, double y, double z
   }
 }
 
+void vtkSlicerHandEyeCalibrationLogic::ForgetResults()
+{
+  if (this->Internal->IsRunning)
+  {
+    return;
+  }
+  this->Internal->Stylus.reset();
+  this->Internal->Calibration.reset();
+  this->Internal->Validation.reset();
+  this->Internal->Phantom.reset();
+  this->Internal->Capture.reset();
+  this->Internal->LastMessage.clear();
+  this->Internal->LastWarnings.clear();
+  this->Internal->UpdateSampleTable();
+  this->Internal->UpdateValidationTable();
+  this->Modified();
+}
+
 bool vtkSlicerHandEyeCalibrationLogic::GetStylusTip(double tip_Stylus[3])
 {
   if (!this->Internal->Stylus)

@@ -43,7 +43,7 @@ public:
     return node != nullptr;
   }
 
-  void publishTransform(const QString& name, vtkMatrix4x4* toParent) override
+  void publishTransform(const QString& name, vtkMatrix4x4* toParent, const QString& description) override
   {
     if (!this->Scene)
     {
@@ -56,6 +56,7 @@ public:
       node->SetName(name.toUtf8().constData());
       this->Scene->AddNode(node);
     }
+    node->SetDescription(description.toUtf8().constData());
     node->SetMatrixTransformToParent(toParent);
   }
 

@@ -4,6 +4,7 @@
 
 #include "HandEyeCalibrationPanel.h"
 #include "MRMLBridge.h"
+#include "PivotCalibration.h"
 #include "findNavigationHost.h"
 #include "ui_qSlicerHandEyeCalibrationModuleWidget.h"
 #include "vtkSlicerHandEyeCalibrationLogic.h"
@@ -14,6 +15,8 @@
 
 #include <QSignalBlocker>
 
+#include <array>
+#include <cmath>
 #include <vector>
 
 class qSlicerHandEyeCalibrationModuleWidgetPrivate : public Ui_qSlicerHandEyeCalibrationModuleWidget
@@ -56,11 +59,15 @@ void qSlicerHandEyeCalibrationModuleWidgetPrivate::publish()
   }
   if (vtkMatrix4x4* const markerToCamera = this->logic->GetMarkerToCamera())
   {
-    this->bridge->publishTransform(QStringLiteral("MarkerToCamera"), markerToCamera);
+    this->bridge->publishTransform(QStringLiteral("MarkerToCamera"), markerToCamera,
+      qSlicerHandEyeCalibrationModuleWidget::tr(
+        "From the camera's marker (as tracked) to the camera (OpenCV: x right, y down, z forward), mm"));
   }
   if (vtkMatrix4x4* const modelToPhantom = this->logic->GetModelToPhantom())
   {
-    this->bridge->publishTransform(QStringLiteral("ModelToPhantom"), modelToPhantom);
+    this->bridge->publishTransform(QStringLiteral("ModelToPhantom"), modelToPhantom,
+      qSlicerHandEyeCalibrationModuleWidget::tr(
+        "From the model, its numbers as they stand in its file (open it as RAS), to the phantom's marker, mm"));
   }
 }
 
@@ -81,11 +88,33 @@ void qSlicerHandEyeCalibrationModuleWidgetPrivate::fillTransformNames()
 
 void qSlicerHandEyeCalibrationModuleWidgetPrivate::takeTip()
 {
+  const QString name = this->stylusTipNode->currentText();
   vtkNew<vtkMatrix4x4> tipToStylus;
-  if (this->bridge && this->logic && this->bridge->transformToParent(this->stylusTipNode->currentText(), tipToStylus))
+  if (!this->bridge || !this->logic || !this->bridge->transformToParent(name, tipToStylus))
   {
-    this->logic->SetStylusTip(tipToStylus->GetElement(0, 3), tipToStylus->GetElement(1, 3), tipToStylus->GetElement(2, 3));
+    this->tipMessage->setText(
+      qSlicerHandEyeCalibrationModuleWidget::tr("There is no linear transform \"%1\" in the scene any more.").arg(name));
+    return;
   }
+  const std::array<double, 3> tip_Stylus = { tipToStylus->GetElement(0, 3), tipToStylus->GetElement(1, 3),
+    tipToStylus->GetElement(2, 3) };
+  const double lengthMm = std::hypot(tip_Stylus[0], tip_Stylus[1], tip_Stylus[2]);
+  const handeye::PivotCalibrationOptions limits;
+  if (!(lengthMm >= limits.nearestTipMm && lengthMm <= limits.furthestTipMm))
+  {
+    // The identity, which a node has that nobody has set, among them.
+    this->tipMessage->setText(qSlicerHandEyeCalibrationModuleWidget::tr(
+      "Not taken: by \"%1\" the tip is %2 mm away from the stylus' marker, which no stylus' is. Has it been pivoted?")
+                                .arg(name)
+                                .arg(lengthMm, 0, 'f', 1));
+    return;
+  }
+  this->logic->SetStylusTip(tip_Stylus[0], tip_Stylus[1], tip_Stylus[2]);
+  this->tipMessage->setText(qSlicerHandEyeCalibrationModuleWidget::tr("Tip of \"%1\": %2, %3, %4 mm")
+                              .arg(name)
+                              .arg(tip_Stylus[0], 0, 'f', 2)
+                              .arg(tip_Stylus[1], 0, 'f', 2)
+                              .arg(tip_Stylus[2], 0, 'f', 2));
 }
 
 // -----------------------------------------------------------------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CapturePage.h"
 
+#include "Look.h"
 #include "SampleRows.h"
 #include "ui_CapturePage.h"
 
@@ -31,6 +32,7 @@ CapturePage::CapturePage(HandEyeWorkbench& workbench, QWidget* parent)
         workbench_.capture().importRecording(path);
       }
     });
+  connect(ui_->againButton, &QPushButton::clicked, &capture, &CaptureTask::evaluateAgain);
   connect(ui_->loadButton, &QPushButton::clicked, this,
     [this]
     {
@@ -127,9 +129,13 @@ void CapturePage::showCalibration()
   }
   ui_->coverage->setNextPlace(next);
   const bool isUsable = calibration && calibration->isUsable();
-  const QString verdict = !calibration ? tr("No samples yet.") : QString::fromStdString(calibration->decisive().message);
-  ui_->verdictLabel->setText(
-    workbench_.isEnough() ? tr("<b>Enough.</b> %1").arg(verdict.toHtmlEscaped()) : verdict.toHtmlEscaped());
+  // The verdict itself stands beside Next.
+  const QString limit = withUnit(workbench_.enoughPx(), 1, tr("px"));
+  const QString worst = isUsable ? withUnit(calibration->calibration.predicted.maximumPx, 2, tr("px")) : QString();
+  ui_->verdictLabel->setText(!calibration ? tr("No samples yet.")
+      : !isUsable                         ? tr("Not enough yet.")
+      : workbench_.isEnough()             ? tr("<b>Enough:</b> %1 at worst, the limit is %2.").arg(worst, limit)
+                                          : tr("Not enough yet: %1 at worst, the limit is %2.").arg(worst, limit));
   const bool isNews = workbench_.isEnough() && !isEnoughSaid_;
   isEnoughSaid_ = isUsable && workbench_.isEnough();
   if (isNews && ui_->soundBox->isChecked())
@@ -145,6 +151,7 @@ void CapturePage::refresh()
   ui_->handsFreeBox->setEnabled(isReady && isLive);
   ui_->takeButton->setEnabled(isReady && isLive);
   ui_->recordingButton->setEnabled(isReady && !workbench_.capture().isBusy());
+  ui_->againButton->setVisible(workbench_.capture().isBroken());
   for (const auto& [spin, value] : { std::pair{ ui_->nearestSpin, workbench_.nearestMm() },
          std::pair{ ui_->furthestSpin, workbench_.furthestMm() }, std::pair{ ui_->enoughSpin, workbench_.enoughPx() } })
   {

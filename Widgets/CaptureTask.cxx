@@ -152,9 +152,14 @@ void CaptureTask::setInputs(const std::optional<CaptureInputs>& inputs)
     return;
   }
   inputs_ = inputs;
+  evaluateAgain();
+}
+
+void CaptureTask::evaluateAgain()
+{
   ++evaluations_;
   post(
-    [this, inputs](Work& work)
+    [this, inputs = inputs_](Work& work)
     {
       work.inputs = inputs;
       try

@@ -87,6 +87,10 @@ public:
   bool isBusy() const { return isBusy_; }
   /// The samples are those of other inputs: they are being evaluated anew, or could not be.
   bool isStale() const { return evaluations_ > 0 || isBroken_; }
+  /// Looking at them anew ended early: it failed, or was cancelled.
+  bool isBroken() const { return isBroken_ && evaluations_ == 0; }
+  /// Looks at the stored samples again, with the inputs as they are.
+  void evaluateAgain();
 
   /// Stores a result or settings with the session.
   void setDocument(const std::string& name, const nlohmann::json& document);

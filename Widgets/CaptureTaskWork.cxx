@@ -7,6 +7,7 @@
 #include "SessionCapture.h"
 #include "WorkThread.h"
 
+#include <stdexcept>
 #include <utility>
 
 namespace handeye
@@ -87,6 +88,12 @@ void CaptureTask::evaluateAll(Work& work)
     if (thread_.isEnding())
     {
       return;
+    }
+    if (thread_.isCancelled())
+    {
+      throw std::runtime_error(tr("The stored samples were not looked at to the end, because that was cancelled. Nothing is "
+                                  "calibrated from them until they are.")
+                                 .toStdString());
     }
     samples.insert(stored.first, work.evaluate(stored.first));
     tell([done = samples.size(), total](CaptureTask& task)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ErrorDistancePlot.h"
 
+#include "ChartCanvas.h"
 #include "Look.h"
 #include "PlotAxes.h"
 
@@ -11,26 +12,19 @@
 #include <QPalette>
 #include <QStackedLayout>
 #include <QStringList>
-#include <QTimer>
 #include <QVBoxLayout>
-#include <QVTKOpenGLNativeWidget.h>
 #include <vtkAxis.h>
 #include <vtkBrush.h>
-#include <vtkCallbackCommand.h>
 #include <vtkChartXY.h>
 #include <vtkColor.h>
 #include <vtkContextScene.h>
-#include <vtkContextView.h>
 #include <vtkDoubleArray.h>
-#include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
 #include <vtkPen.h>
 #include <vtkPlotPoints.h>
-#include <vtkRenderer.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
-#include <vtkTooltipItem.h>
 
 #include <algorithm>
 #include <cmath>
@@ -91,8 +85,9 @@ class ErrorDistancePlot::Private
 public:
   void build(const ErrorDistancePlot& plot);
   void style(const ErrorDistancePlot& plot);
-  void styleAxis(vtkAxis* axis, const QString& title, const QWidget& widget, double ratio);
-  void addSeries(const ErrorSeries& one, int index, const QPalette& palette, const PlotRanges& ranges, double ratio);
+  void styleAxis(vtkAxis* axis, const QString& title, const QWidget& widget);
+  void addSeries(const ErrorSeries& one, int index, const QPalette& palette, const PlotRanges& ranges);
+  QString wordsAt(const QPointF& place) const;
 
   void writeLegend(const QPalette& palette);
 
@@ -100,19 +95,7 @@ public:
   QLabel* legend = nullptr;
   QWidget* page = nullptr;
   QLabel* nothing = nullptr;
-  QVTKOpenGLNativeWidget* gl = nullptr;
-  /// A margin: VTK lets the letters of the axes touch the borders, or be cut off by them.
-  void fitChart()
-  {
-    const int* size = window->GetSize();
-    const float margin = 4.0F * float(window->GetDPI()) / 72;
-    chart->SetSize(vtkRectf(margin, 1.5F * margin, float(size[0]) - 2 * margin, float(size[1]) - 2 * margin));
-  }
-
-  QTimer renderTimer;
-  vtkNew<vtkCallbackCommand> beforeRendering;
-  vtkNew<vtkGenericOpenGLRenderWindow> window;
-  vtkNew<vtkContextView> view;
+  ChartCanvas* canvas = nullptr;
   vtkNew<vtkChartXY> chart;
   QVector<ErrorSeries> series;
   ErrorPlotAxes axes;
@@ -134,58 +117,42 @@ ErrorDistancePlot::ErrorDistancePlot(QWidget* parent)
   d->legend = new QLabel(d->page);
   d->legend->setWordWrap(true);
   d->legend->setAlignment(Qt::AlignCenter);
-  d->gl = new QVTKOpenGLNativeWidget(d->page);
+  d->canvas = new ChartCanvas(d->page);
   column->addWidget(d->legend);
-  column->addWidget(d->gl, 1);
-  d->gl->setRenderWindow(d->window);
-  d->gl->setAccessibleName(this->accessibleName());
-  d->gl->setToolTip(tr("Projection error (px) of each sample against its distance from the camera (mm); the line is the mean. "
-                       "Point at a mark for its numbers."));
+  column->addWidget(d->canvas, 1);
+  d->canvas->setAccessibleName(this->accessibleName());
+  d->canvas->setToolTip(tr("Projection error (px) of each sample against its distance from the camera (mm); the line is the mean. "
+                           "Point at a mark for its numbers."));
   d->layout->addWidget(d->nothing);
   d->layout->addWidget(d->page);
-  d->view->SetRenderWindow(d->window);
-  d->view->GetScene()->AddItem(d->chart);
+  d->canvas->scene()->AddItem(d->chart);
   d->chart->SetShowLegend(false);
-  // The whole is always seen; the wheel scrolls the page.
-  d->chart->SetZoomWithMouseWheel(false);
-  for (const int action : { vtkChart::PAN, vtkChart::ZOOM, vtkChart::SELECT })
-  {
-    d->chart->SetActionToButton(action, -1);
-  }
   d->chart->SetHiddenAxisBorder(0);
   d->chart->SetAutoSize(false);
-  d->beforeRendering->SetClientData(d.get());
-  d->beforeRendering->SetCallback([](vtkObject*, unsigned long, void* self, void*) { static_cast<Private*>(self)->fitChart(); });
-  d->window->AddObserver(vtkCommand::StartEvent, d->beforeRendering);
-  d->renderTimer.setSingleShot(true);
-  d->renderTimer.setInterval(0);
-  connect(&d->renderTimer, &QTimer::timeout, this,
-    [this]
+  d->canvas->setBeforePainting(
+    [chart = d->chart.Get()](const QSize& size)
     {
-      if (d->gl->isVisible() && d->gl->isValid())
-      {
-        d->window->Render();
-      }
+      // VTK lets the letters of the axes touch the borders, or be cut off by them.
+      constexpr float margin = 5;
+      chart->SetSize(vtkRectf(margin, 1.5F * margin, float(size.width()) - 2 * margin, float(size.height()) - 2.5F * margin));
     });
+  d->canvas->setToolTipAt([this](const QPointF& place) { return d->wordsAt(place); });
 }
 
-ErrorDistancePlot::~ErrorDistancePlot()
-{
-  d->window->RemoveObserver(d->beforeRendering);
-}
+ErrorDistancePlot::~ErrorDistancePlot() = default;
 
 void ErrorDistancePlot::setSeries(const QVector<ErrorSeries>& series)
 {
   d->series = series;
   d->build(*this);
-  d->renderTimer.start();
+  d->canvas->update();
 }
 
 void ErrorDistancePlot::setAxes(const ErrorPlotAxes& axes)
 {
   d->axes = axes;
   d->build(*this);
-  d->renderTimer.start();
+  d->canvas->update();
 }
 
 QString ErrorDistancePlot::markOf(int index, const QPalette& palette)
@@ -220,15 +187,14 @@ void ErrorDistancePlot::Private::build(const ErrorDistancePlot& plot)
   const PlotRanges ranges = PlotRanges::of(series, axes.isLogarithmic, axes.leastAir);
   layout->setCurrentWidget(ranges.isEmpty ? static_cast<QWidget*>(nothing) : page);
   QStringList words;
-  const double ratio = plot.devicePixelRatioF();
   for (int index = 0; index < series.size(); ++index)
   {
-    this->addSeries(series[index], index, plot.palette(), ranges, ratio);
+    this->addSeries(series[index], index, plot.palette(), ranges);
     words += ErrorDistancePlot::tr("%1: mean %2, largest %3")
                .arg(series[index].name, withUnit(series[index].errorPx.mean, 2, ErrorDistancePlot::tr("px")),
                  withUnit(series[index].errorPx.maximum, 2, ErrorDistancePlot::tr("px")));
   }
-  gl->setAccessibleDescription(words.join(QStringLiteral("; ")));
+  canvas->setAccessibleDescription(words.join(QStringLiteral("; ")));
   vtkAxis* bottom = chart->GetAxis(vtkAxis::BOTTOM);
   vtkAxis* left = chart->GetAxis(vtkAxis::LEFT);
   bottom->SetBehavior(vtkAxis::FIXED);
@@ -240,8 +206,7 @@ void ErrorDistancePlot::Private::build(const ErrorDistancePlot& plot)
   this->style(plot);
 }
 
-void ErrorDistancePlot::Private::addSeries(
-  const ErrorSeries& one, int index, const QPalette& palette, const PlotRanges& ranges, double ratio)
+void ErrorDistancePlot::Private::addSeries(const ErrorSeries& one, int index, const QPalette& palette, const PlotRanges& ranges)
 {
   const QColor color = one.color.isValid() ? one.color : seriesColor(index, palette);
   if (one.errorPx.count > 0 && series.size() <= MostMeans && !axes.isLogarithmic)
@@ -252,7 +217,7 @@ void ErrorDistancePlot::Private::addSeries(
       ErrorDistancePlot::tr("%1: mean %2").arg(one.name, withUnit(one.errorPx.mean, 2, ErrorDistancePlot::tr("px")));
     mean->SetLabel(title.toStdString());
     mean->GetPen()->SetColor(toVtk(color));
-    mean->GetPen()->SetWidth(float(1.6 * ratio));
+    mean->GetPen()->SetWidth(1.6F);
     mean->GetPen()->SetLineType(vtkPen::DASH_LINE);
   }
   auto* points =
@@ -260,19 +225,45 @@ void ErrorDistancePlot::Private::addSeries(
   points->SetInputData(makeTable(one.points, "error", axes.isLogarithmic), 0, 1);
   points->SetLabel(one.name.toStdString());
   points->SetMarkerStyle(markerOf(index).style);
-  points->SetMarkerSize(float(9 * ratio));
+  points->SetMarkerSize(9);
   points->GetPen()->SetColor(toVtk(color));
-  points->GetPen()->SetWidth(float(1.5 * ratio));
+  points->GetPen()->SetWidth(1.5F);
   points->GetBrush()->SetColor(toVtk(color, 200));
-  const QString errorFormat = axes.isLogarithmic ? QString() : ErrorDistancePlot::tr(": %y px at %x %1").arg(axes.xUnit);
-  points->SetTooltipLabelFormat((one.name + errorFormat).toStdString());
 }
 
-void ErrorDistancePlot::Private::styleAxis(vtkAxis* axis, const QString& title, const QWidget& widget, double ratio)
+/// The nearest mark's numbers, if one is at this place of the canvas.
+QString ErrorDistancePlot::Private::wordsAt(const QPointF& place) const
+{
+  const auto along = [](vtkAxis* axis, double value, int coordinate)
+  {
+    const double share = (value - axis->GetMinimum()) / (axis->GetMaximum() - axis->GetMinimum());
+    return axis->GetPoint1()[coordinate] + share * (axis->GetPoint2()[coordinate] - axis->GetPoint1()[coordinate]);
+  };
+  double nearestPx = 8;
+  QString words;
+  for (const ErrorSeries& one : series)
+  {
+    for (const QPointF& point : one.points)
+    {
+      const double height = axes.isLogarithmic ? std::log10(point.y()) : point.y();
+      const QPointF mark(along(chart->GetAxis(vtkAxis::BOTTOM), point.x(), 0), along(chart->GetAxis(vtkAxis::LEFT), height, 1));
+      const double distancePx = std::hypot(mark.x() - place.x(), mark.y() - place.y());
+      if (distancePx < nearestPx)
+      {
+        nearestPx = distancePx;
+        words = ErrorDistancePlot::tr("%1: %2 at %3")
+                  .arg(one.name, withUnit(point.y(), 2, ErrorDistancePlot::tr("px")),
+                    withUnit(point.x(), 0, axes.xUnit));
+      }
+    }
+  }
+  return words;
+}
+
+void ErrorDistancePlot::Private::styleAxis(vtkAxis* axis, const QString& title, const QWidget& widget)
 {
   const QColor text = widget.palette().color(QPalette::Text);
   const QColor grid = widget.palette().color(QPalette::Mid);
-  // VTK multiplies by the window's resolution itself.
   const int size = widget.fontInfo().pixelSize();
   axis->SetTitle(title.toStdString());
   for (vtkTextProperty* property : { axis->GetTitleProperties(), axis->GetLabelProperties() })
@@ -282,9 +273,9 @@ void ErrorDistancePlot::Private::styleAxis(vtkAxis* axis, const QString& title, 
     property->SetBold(false);
   }
   axis->GetPen()->SetColor(toVtk(text));
-  axis->GetPen()->SetWidth(float(ratio));
+  axis->GetPen()->SetWidth(1);
   axis->GetGridPen()->SetColor(toVtk(grid, 120));
-  axis->GetGridPen()->SetWidth(float(ratio));
+  axis->GetGridPen()->SetWidth(1);
 }
 
 /// Above the chart, where it covers no point.
@@ -311,14 +302,10 @@ void ErrorDistancePlot::Private::writeLegend(const QPalette& palette)
 void ErrorDistancePlot::Private::style(const ErrorDistancePlot& plot)
 {
   const QPalette& palette = plot.palette();
-  const double ratio = plot.devicePixelRatioF();
   const QColor ground = palette.color(QPalette::Base);
-  view->GetRenderer()->SetBackground(ground.redF(), ground.greenF(), ground.blueF());
   chart->GetBackgroundBrush()->SetColor(toVtk(ground));
-  this->styleAxis(chart->GetAxis(vtkAxis::BOTTOM), axes.xTitle, plot, ratio);
-  this->styleAxis(chart->GetAxis(vtkAxis::LEFT), axes.yTitle, plot, ratio);
-  vtkTooltipItem* tooltip = chart->GetTooltip();
-  tooltip->GetTextProperties()->SetFontSize(plot.fontInfo().pixelSize());
+  this->styleAxis(chart->GetAxis(vtkAxis::BOTTOM), axes.xTitle, plot);
+  this->styleAxis(chart->GetAxis(vtkAxis::LEFT), axes.yTitle, plot);
   this->writeLegend(palette);
 }
 
@@ -328,16 +315,8 @@ void ErrorDistancePlot::changeEvent(QEvent* event)
   if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange)
   {
     d->build(*this);
-    d->renderTimer.start();
+    d->canvas->update();
   }
-}
-
-void ErrorDistancePlot::showEvent(QShowEvent* event)
-{
-  QWidget::showEvent(event);
-  // On a screen of another device pixel ratio sizes are others.
-  d->build(*this);
-  d->renderTimer.start();
 }
 
 }  // namespace handeye

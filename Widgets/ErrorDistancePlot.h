@@ -29,7 +29,8 @@ struct ErrorPlotAxes
 };
 
 /// Projection error (px) against distance from the camera (mm): points of one marker and colour per series, and the mean of each
-/// (of up to four) as a line. Follows the palette, light or dark. Points that are not finite are left out.
+/// (of up to four) as a line. Follows the palette, light or dark. Points that are not finite are left out. A vtkChartXY, painted by Qt:
+/// see ChartCanvas.
 class ErrorDistancePlot : public QWidget
 {
   Q_OBJECT
@@ -52,7 +53,6 @@ public:
 
 protected:
   void changeEvent(QEvent* event) override;
-  void showEvent(QShowEvent* event) override;
 
 private:
   class Private;

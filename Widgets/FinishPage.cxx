@@ -3,6 +3,7 @@
 #include "FinishPage.h"
 
 #include "CalibrationExport.h"
+#include "Look.h"
 #include "ui_FinishPage.h"
 
 #include <QUrl>
@@ -51,8 +52,10 @@ void FinishPage::enter()
     sources.model = workbench_.modelPath().toStdString();
   }
   ui_->exports->setSources(sources);
-  if (ui_->exports->folder().isEmpty())
+  // Another session's exports are not put beside those of the one before.
+  if (ui_->exports->folder().isEmpty() || exportsOf_ != workbench_.sessionFolder())
   {
+    exportsOf_ = workbench_.sessionFolder();
     ui_->exports->setFolder(workbench_.sessionFolder() + QStringLiteral("/export"));
   }
   const bool isValidated = workbench_.validation() && workbench_.validation()->isUsable();
@@ -62,9 +65,11 @@ void FinishPage::enter()
 void FinishPage::refresh()
 {
   const QString folder = workbench_.sessionFolder();
-  ui_->sessionLabel->setText(folder.isEmpty() ? tr("No session is open.")
-                                              : tr("Everything is stored in <a href=\"%1\">%2</a>; nothing needs to be saved.")
-                                                  .arg(QUrl::fromLocalFile(folder).toString(), folder.toHtmlEscaped()));
+  // With its colour: a label does not look at the palette's again when that changes.
+  ui_->sessionLabel->setText(folder.isEmpty()
+      ? tr("No session is open.")
+      : tr("Everything is stored in <a href=\"%1\" style=\"color:%3\">%2</a>; nothing needs to be saved.")
+          .arg(QUrl::fromLocalFile(folder).toString(), folder.toHtmlEscaped(), palette().color(QPalette::Link).name()));
   QStringList lines;
   for (const WizardStep step : { WizardStep::Stylus, WizardStep::Capture, WizardStep::Validation, WizardStep::Overlay })
   {
@@ -72,8 +77,10 @@ void FinishPage::refresh()
     const QString problem = workbench_.problemOf(step);
     const char* const names[] = { "", "", QT_TR_NOOP("Stylus"), "", QT_TR_NOOP("Calibration"), QT_TR_NOOP("Validation"), "",
       QT_TR_NOOP("Phantom") };
-    lines << QStringLiteral("<tr><td>%1: </td><td>%2</td></tr>")
-               .arg(tr(names[int(step)]), (problem.isEmpty() ? verdict : problem).toHtmlEscaped());
+    const Level level = problem.isEmpty() ? workbench_.levelOf(step) : Level::Info;
+    lines << QStringLiteral("<tr><td>%1: </td><td style=\"color:%3\">%2</td></tr>")
+               .arg(tr(names[int(step)]), (problem.isEmpty() ? verdict : problem).toHtmlEscaped(),
+                 levelColor(level, palette()).name());
   }
   ui_->summaryLabel->setText(QStringLiteral("<table cellspacing='4'>") + lines.join(QString()) + QStringLiteral("</table>"));
 }

@@ -28,6 +28,7 @@ public:
 
 private:
   std::unique_ptr<Ui::FinishPage> ui_;
+  QString exportsOf_;  ///< the session whose folder was offered
 };
 
 }  // namespace handeye

@@ -10,6 +10,7 @@
 #include "FinishPage.h"
 #include "HandEyeWorkbench.h"
 #include "HostLink.h"
+#include "LogicLink.h"
 #include "Look.h"
 #include "OverlayPage.h"
 #include "StylusPage.h"
@@ -19,7 +20,6 @@
 #include "WizardStepBar.h"
 #include "ui_HandEyeCalibrationPanel.h"
 
-#include <QFileInfo>
 #include <QScrollBar>
 #include <QShortcut>
 #include <QSplitter>
@@ -36,7 +36,7 @@ using handeye::WizardStepBar;
 class HandEyeCalibrationPanel::Private
 {
 public:
-  Private(HandEyeCalibrationPanel& panel, vtkSlicerHandEyeCalibrationLogic* logic, NavigationHost* host);
+  Private(HandEyeCalibrationPanel& panel, NavigationHost* host);
 
   void makePages();
   void makeVideo();
@@ -56,16 +56,16 @@ public:
   std::unique_ptr<handeye::VideoView> video;
   handeye::VideoPresenter* presenter = nullptr;
   std::unique_ptr<handeye::HostLink> link;
+  std::unique_ptr<handeye::LogicLink> logicLink;
   std::array<WizardPage*, handeye::WizardStepCount> pages{};
   WizardStep step = WizardStep::Devices;
   QString refusal;  ///< the last one of this page; empty if there is none
 };
 
-HandEyeCalibrationPanel::Private::Private(
-  HandEyeCalibrationPanel& panel, vtkSlicerHandEyeCalibrationLogic* logic, NavigationHost* navigationHost)
+HandEyeCalibrationPanel::Private::Private(HandEyeCalibrationPanel& panel, NavigationHost* navigationHost)
   : q(panel)
   , host(navigationHost)
-  , workbench(std::make_unique<HandEyeWorkbench>(logic))
+  , workbench(std::make_unique<HandEyeWorkbench>())
 {
   auto* layout = new QVBoxLayout(&q);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -76,6 +76,8 @@ HandEyeCalibrationPanel::Private::Private(
   ui.stepBarLayout->addWidget(steps, 0, 0);
   ui.progressBox->hide();
   wizard->setMinimumWidth(380);
+  // Most verdicts take two lines: there is room for them at once, and the page above does not move with the words.
+  ui.messageLabel->setMinimumHeight(2 * ui.messageLabel->fontMetrics().lineSpacing());
   makePages();
   makeVideo();
   connectAll();
@@ -247,19 +249,23 @@ void HandEyeCalibrationPanel::Private::refresh()
   }
   else
   {
-    showMessage(problem.isEmpty() && !isLast ? workbench->verdictOf(step) : QString(), handeye::Level::Good);
+    showMessage(problem.isEmpty() && !isLast ? workbench->verdictOf(step) : QString(), workbench->levelOf(step));
   }
 }
 
 HandEyeCalibrationPanel::HandEyeCalibrationPanel(vtkSlicerHandEyeCalibrationLogic* logic, NavigationHost* host, QWidget* parent)
   : QWidget(parent)
-  , d(std::make_unique<Private>(*this, logic, host))
+  , d(std::make_unique<Private>(*this, host))
 {
   const auto shortcut = [this](const QKeySequence& keys, void (HandEyeCalibrationPanel::*slot)())
   { connect(new QShortcut(keys, this, nullptr, nullptr, Qt::WidgetWithChildrenShortcut), &QShortcut::activated, this, slot); };
   shortcut(QKeySequence(Qt::ALT + Qt::Key_Right), &HandEyeCalibrationPanel::goNext);
   shortcut(QKeySequence(Qt::ALT + Qt::Key_Left), &HandEyeCalibrationPanel::goBack);
   d->workbench->openSession(HandEyeWorkbench::newSessionFolder());
+  if (logic)
+  {
+    d->logicLink = std::make_unique<handeye::LogicLink>(*d->workbench, *logic);
+  }
   goTo(WizardStep::Devices);
   if (d->link && d->link->isDemonstration())
   {
@@ -300,6 +306,11 @@ void HandEyeCalibrationPanel::goTo(WizardStep step)
   d->step = step;
   d->refusal.clear();
   d->steps->setCurrent(step);
+  for (WizardPage* const page : d->pages)
+  {
+    // A stack is as high as its highest page, and would let a person scroll into nothing on the others.
+    page->setSizePolicy(QSizePolicy::Preferred, page == &d->currentPage() ? QSizePolicy::Preferred : QSizePolicy::Ignored);
+  }
   d->ui.pages->setCurrentWidget(&d->currentPage());
   d->ui.scrollArea->verticalScrollBar()->setValue(0);
   d->workbench->enterStep(step);
@@ -352,72 +363,4 @@ void HandEyeCalibrationPanel::changeEvent(QEvent* event)
   {
     d->refresh();
   }
-}
-
-bool HandEyeCalibrationPanel::openFile(const QString& path)
-{
-  const QFileInfo file(path);
-  const QString ending = file.suffix().toLower();
-  static const QStringList meshes = { QStringLiteral("stl"), QStringLiteral("ply"), QStringLiteral("obj"), QStringLiteral("vtp"),
-    QStringLiteral("vtk") };
-  static const QStringList cameras = { QStringLiteral("yml"), QStringLiteral("yaml"), QStringLiteral("xml"),
-    QStringLiteral("txt") };
-  if (!file.exists())
-  {
-    return false;
-  }
-  if (file.isDir() && QFileInfo::exists(path + QStringLiteral("/session.json")))
-  {
-    d->workbench->openSession(path);
-    return true;
-  }
-  if (file.isDir() || ending == QStringLiteral("mha"))
-  {
-    if (d->step == WizardStep::Stylus)
-    {
-      d->workbench->pivot().calibrateRecording(path, d->workbench->devices().setup().stylusToTracker);
-    }
-    else if (d->step == WizardStep::Comparison)
-    {
-      static_cast<handeye::ComparisonPage*>(page(WizardStep::Comparison))->chooseBoardRecording(path);
-    }
-    else if (d->step == WizardStep::Capture || d->step == WizardStep::Validation)
-    {
-      (d->step == WizardStep::Capture ? d->workbench->capture() : d->workbench->validationCapture()).importRecording(path);
-    }
-    else
-    {
-      goTo(WizardStep::Devices);
-      static_cast<handeye::DevicesPage*>(page(WizardStep::Devices))->chooseRecording(path);
-    }
-    return true;
-  }
-  if (meshes.contains(ending))
-  {
-    goTo(WizardStep::Overlay);
-    d->workbench->loadModel(path);
-    return true;
-  }
-  if (d->step == WizardStep::Stylus && ending == QStringLiteral("json"))
-  {
-    d->workbench->loadStylus(path);
-    return true;
-  }
-  if (d->step == WizardStep::Capture && ending == QStringLiteral("json"))
-  {
-    d->workbench->loadCalibration(path);
-    return true;
-  }
-  if (d->step == WizardStep::Overlay && ending == QStringLiteral("json"))
-  {
-    d->workbench->loadRegistration(path);
-    return true;
-  }
-  if (cameras.contains(ending) || ending == QStringLiteral("json"))
-  {
-    goTo(WizardStep::Camera);
-    d->workbench->loadCamera(path);
-    return true;
-  }
-  return false;
 }

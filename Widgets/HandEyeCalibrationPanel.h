@@ -28,7 +28,7 @@ class HandEyeCalibrationPanel : public QWidget
   Q_OBJECT
 
 public:
-  /// @param logic receives the results; may be null. @param host the desktop; may be null. Both outlive the panel.
+  /// @param logic has the same results as the wizard, see LogicLink; may be null. @param host the desktop; may be null. Both outlive the panel.
   HandEyeCalibrationPanel(vtkSlicerHandEyeCalibrationLogic* logic, NavigationHost* host, QWidget* parent = nullptr);
   ~HandEyeCalibrationPanel() override;
 

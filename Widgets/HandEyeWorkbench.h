@@ -11,6 +11,7 @@
 #include "LatencyTask.h"
 #include "LensTask.h"
 #include "LivePipeline.h"
+#include "Look.h"
 #include "OverlayPose.h"
 #include "PivotTask.h"
 #include "ValidationStep.h"
@@ -27,8 +28,6 @@
 
 #include <memory>
 #include <optional>
-
-class vtkSlicerHandEyeCalibrationLogic;
 
 namespace handeye
 {
@@ -85,8 +84,7 @@ public:
     QString message;       ///< of the last click
   };
 
-  /// @param logic receives the results; may be null
-  explicit HandEyeWorkbench(vtkSlicerHandEyeCalibrationLogic* logic, QObject* parent = nullptr);
+  explicit HandEyeWorkbench(QObject* parent = nullptr);
   ~HandEyeWorkbench() override;
 
   DeviceHub& devices() { return *devices_; }
@@ -105,7 +103,10 @@ public:
   QString sessionFolder() const { return capture_->folder(); }
   /// What was odd about it: sentences.
   QStringList sessionProblems() const { return sessionProblems_; }
+  /// Of the session's document of this name; empty while no session is open.
   QString documentPath(const QString& name) const;
+  /// Called in this thread once everything that was to be stored by now is on the disk.
+  void afterStoring(std::function<void()> then);
 
   // Devices
   bool connectDevices(const DeviceSetup& setup);
@@ -121,6 +122,8 @@ public:
   void useCalibratedLens();
   const std::optional<Camera>& camera() const { return camera_; }
   void loadStylus(const QString& path);
+  /// A tip whose exactness is not known. @param origin where it is from, for a person
+  void takeStylusTip(const Eigen::Vector3d& tip_Stylus, const QString& origin);
   const std::optional<Stylus>& stylus() const { return stylus_; }
   void setBallRadius(double radiusMm);
   /// From the newest frame of the live video. @param point_Image px
@@ -190,6 +193,8 @@ public:
   QString verdictOf(WizardStep step) const;
   /// Whether there is a usable result; of a step that can be left out, whether there is one at all.
   bool isDone(WizardStep step) const;
+  /// How good that is: `fair` is a warning, `poor` an error.
+  Level levelOf(WizardStep step) const;
 
   void cancelWork();
 
@@ -197,6 +202,8 @@ signals:
   /// Something about a step's inputs or result is different.
   void stateChanged();
   void stepEntered();
+  /// Another session is being opened: nothing of the one before counts any more.
+  void resultsForgotten();
   void sessionOpened();
   void cameraChanged();
   void stylusChanged();
@@ -227,7 +234,6 @@ private:
   void recalibrate();
   void calibrateNow();
   void takeCalibration(const CalibrationStepResult& result);
-  void giveToLogic();
   void revalidate();
   void refuse(WizardStep step, const QString& message);
   /// Work beside the window; what it throws is a refusal of the step.
@@ -236,7 +242,6 @@ private:
   void onSample(const devices::DeviceSample& sample);
   void onFrame(const devices::PairedFrame& frame);
 
-  vtkSlicerHandEyeCalibrationLogic* logic_;
   std::unique_ptr<WorkThread> work_;
   DeviceHub* devices_;
   LivePipeline* live_;

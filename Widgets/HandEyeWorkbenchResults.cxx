@@ -8,11 +8,11 @@
 #include "ValidationReport.h"
 #include "WindowPlots.h"
 #include "WorkThread.h"
-#include "vtkSlicerHandEyeCalibrationLogic.h"
 
 #include <QCoreApplication>
 #include <QFileInfo>
 
+#include <dlfcn.h>
 #include <fstream>
 #include <utility>
 
@@ -22,13 +22,26 @@ namespace handeye
 namespace
 {
 
-/// A file that is installed with the program, or lies in the source folder that it was built from.
+/// The folder of the file that this code is a part of: the plugin, wherever it was installed, or a program.
+QString ownFolder()
+{
+  Dl_info info{};
+  const bool isKnown = dladdr(reinterpret_cast<const void*>(&ownFolder), &info) != 0 && info.dli_fname;
+  return isKnown ? QFileInfo(QString::fromLocal8Bit(info.dli_fname)).absolutePath() : QCoreApplication::applicationDirPath();
+}
+
+/// A file that is installed with the plugin, or lies in the source folder that it was built from.
 QString meshFile(const char* name)
 {
-  const QString installed =
-    QCoreApplication::applicationDirPath() + QStringLiteral("/../share/handeye/Meshes/") + QString::fromLatin1(name);
-  const QString source = QStringLiteral(HANDEYE_MESHES_DIR "/") + QString::fromLatin1(name);
-  return QFileInfo::exists(installed) ? installed : QFileInfo::exists(source) ? source : QString();
+  for (const QString& folder : { ownFolder() + QStringLiteral("/" HANDEYE_MESHES_FROM_MODULE), QStringLiteral(HANDEYE_MESHES_DIR) })
+  {
+    const QString file = folder + QLatin1Char('/') + QString::fromLatin1(name);
+    if (QFileInfo::exists(file))
+    {
+      return file;
+    }
+  }
+  return {};
 }
 
 /// A result file that was read already by the reader of its kind.
@@ -119,22 +132,8 @@ void HandEyeWorkbench::takeCalibration(const CalibrationStepResult& result)
   {
     store("calibration", calibrationJson(result));
   }
-  if (result.isUsable())
-  {
-    giveToLogic();
-  }
   emit calibrationChanged();
   revalidate();
-}
-
-/// The session's calibration.json, which is there once the work before this is done.
-void HandEyeWorkbench::giveToLogic()
-{
-  if (logic_ && capture_->isOpen())
-  {
-    const QString file = documentPath(QStringLiteral("calibration"));
-    work_->post([this, file] { tell([this, file] { logic_->LoadCalibration(file.toStdString()); }); });
-  }
 }
 
 void HandEyeWorkbench::loadCalibration(const QString& path)
@@ -168,7 +167,6 @@ void HandEyeWorkbench::loadCalibration(const QString& path)
           emit stylusChanged();
           emit ballChanged();
           setCamera({ stored.camera, stored.markerToCamera, "calibration.json", {} }, path);
-          giveToLogic();
           emit calibrationChanged();
           revalidate();
         });
@@ -179,7 +177,8 @@ void HandEyeWorkbench::revalidate()
 {
   const std::vector<CapturedFrame> frames = validationCapture_->frames();
   validation_.reset();
-  if (!frames.empty() && calibration_ && calibration_->isUsable())
+  // Samples of another lens, tip or ball say nothing of this one, until they have been looked at again.
+  if (!frames.empty() && !validationCapture_->isStale() && calibration_ && calibration_->isUsable())
   {
     validation_ = validateCapture(frames, calibration_->camera, calibration_->calibration.markerToCamera);
     store("validation", validationJson(*validation_));

@@ -3,6 +3,7 @@
 #include "HandEyeWorkbench.h"
 
 #include "ResultFiles.h"
+#include "WorkThread.h"
 
 #include <QDateTime>
 #include <QDir>
@@ -57,10 +58,15 @@ void HandEyeWorkbench::openSession(const QString& folder)
   calibration_.reset();
   isCalibrationLoaded_ = false;
   validation_.reset();
+  model_ = nullptr;
+  modelPath_.clear();
   modelToPhantom_.reset();
   registration_.reset();
   comparison_->clear();
   sessionProblems_.clear();
+  emit resultsForgotten();
+  emit modelChanged();
+  emit registrationChanged();
   capture_->setInputs({});
   validationCapture_->setInputs({});
   QDir().mkpath(folder);
@@ -71,6 +77,11 @@ void HandEyeWorkbench::openSession(const QString& folder)
 QString HandEyeWorkbench::documentPath(const QString& name) const
 {
   return capture_->isOpen() ? capture_->folder() + QStringLiteral("/documents/") + name + QStringLiteral(".json") : QString();
+}
+
+void HandEyeWorkbench::afterStoring(std::function<void()> then)
+{
+  work_->post([this, then = std::move(then)] { tell(then); });
 }
 
 void HandEyeWorkbench::store(const std::string& name, const json& document)

@@ -74,10 +74,18 @@ QString HandEyeWorkbench::problemOf(WizardStep step) const
       {
         return tr("The samples are being looked at.");
       }
+      if (capture_->isBroken())
+      {
+        return tr("The stored samples have not been looked at to the end: press Look again.");
+      }
       return calibration_ && calibration_->isUsable() ? QString()
         : calibration_                                ? QString::fromStdString(calibration_->decisive().message)
                                                       : tr("Collect placements of the ball.");
     case WizardStep::Validation:
+      if (validationCapture_->isBroken())
+      {
+        return tr("The stored placements have not been looked at to the end: press Look again.");
+      }
       return validation_ && validation_->isUsable()
         ? QString()
         : tr("Hold the ball at a few other places, so that the calibration is tested on them.");
@@ -91,6 +99,22 @@ QString HandEyeWorkbench::problemOf(WizardStep step) const
       return {};
   }
   return {};
+}
+
+Level HandEyeWorkbench::levelOf(WizardStep step) const
+{
+  if (step == WizardStep::Capture && calibration_ && !isCalibrationLoaded_)
+  {
+    return errorLevel(calibration_->calibration.predicted.meanPx);
+  }
+  if (step == WizardStep::Validation && validation_)
+  {
+    // Few frames say little, however good they look; the verdict's own words ask for five.
+    constexpr int EnoughFrames = 5;
+    const Level level = errorLevel(validation_->projectionErrorPx.mean);
+    return level == Level::Good && validation_->projectionErrorPx.count < EnoughFrames ? Level::Warning : level;
+  }
+  return Level::Good;
 }
 
 QString HandEyeWorkbench::verdictOf(WizardStep step) const

@@ -14,6 +14,9 @@ LatencyTask::LatencyTask(WorkThread& work, QObject* parent)
   : QObject(parent)
   , work_(work)
 {
+  silence_.setSingleShot(true);
+  silence_.setInterval(5000);
+  connect(&silence_, &QTimer::timeout, this, &LatencyTask::endInSilence);
 }
 
 void LatencyTask::start(const CameraModel& camera, const Eigen::Vector3d& tip_Stylus, const QString& markerToTracker,
@@ -25,12 +28,20 @@ void LatencyTask::start(const CameraModel& camera, const Eigen::Vector3d& tip_St
   {
     const std::lock_guard lock(mutex_);
     collection_ = Collection{ markerToTracker.toStdString(), stylusToTracker.toStdString(), PoseTrack(options), PoseTrack(options),
-      {}, seconds, -1 };
+      {}, seconds, -1, ++run_ };
   }
   camera_ = camera;
   tip_Stylus_ = tip_Stylus;
   isRunning_ = true;
+  silence_.start();
   emit runningChanged();
+}
+
+void LatencyTask::endInSilence()
+{
+  const double waitedSec = silence_.interval() / 1000.0;
+  cancel();
+  emit refused(tr("The latency was not measured: no picture has come for %1 s. Is the video still connected?").arg(waitedSec));
 }
 
 void LatencyTask::cancel()
@@ -39,6 +50,7 @@ void LatencyTask::cancel()
     const std::lock_guard lock(mutex_);
     collection_.reset();
   }
+  silence_.stop();
   if (std::exchange(isRunning_, false))
   {
     emit runningChanged();
@@ -82,7 +94,17 @@ void LatencyTask::onFrame(const devices::PairedFrame& frame, const std::optional
     isDone = share >= 1;
   }
   QMetaObject::invokeMethod(
-    this, [this, share] { emit progressed(share); }, Qt::QueuedConnection);
+    this,
+    [this, share, isDone]
+    {
+      if (!isRunning_)
+      {
+        return;  // cancelled meanwhile
+      }
+      isDone ? silence_.stop() : silence_.start();
+      emit progressed(share);
+    },
+    Qt::QueuedConnection);
   if (isDone)
   {
     evaluate();
@@ -97,6 +119,10 @@ void LatencyTask::evaluate()
     const std::lock_guard lock(mutex_);
     collection = std::exchange(collection_, std::nullopt);
   }
+  if (!collection)
+  {
+    return;  // cancelled at this moment
+  }
   TemporalCalibrationResult result;
   try
   {
@@ -108,8 +134,12 @@ void LatencyTask::evaluate()
   }
   QMetaObject::invokeMethod(
     this,
-    [this, result]
+    [this, result, run = collection->run]
     {
+      if (!isRunning_ || run != run_)
+      {
+        return;
+      }
       isRunning_ = false;
       emit runningChanged();
       if (result.isUsable())

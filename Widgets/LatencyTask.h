@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <QObject>
 #include <QString>
+#include <QTimer>
 
 #include <mutex>
 #include <optional>
@@ -32,11 +33,15 @@ class LatencyTask : public QObject
 public:
   explicit LatencyTask(WorkThread& work, QObject* parent = nullptr);
 
-  /// Collects for some seconds; measured() or refused() follow.
+  /// Collects for some seconds; measured() or refused() follow, in any case: where the video stops for longer than the silence that
+  /// is borne, the measurement ends with that reason.
   void start(const CameraModel& camera, const Eigen::Vector3d& tip_Stylus, const QString& markerToTracker,
     const QString& stylusToTracker, double seconds = 6);
   void cancel();
   bool isRunning() const { return isRunning_; }
+
+  /// 5 s unless set.
+  void setLongestSilence(int milliseconds) { silence_.setInterval(milliseconds); }
 
   void onSample(const devices::DeviceSample& sample);
   void onFrame(const devices::PairedFrame& frame, const std::optional<BallDetection>& ball);
@@ -49,6 +54,7 @@ signals:
   void refused(const QString& message);
 
 private:
+  void endInSilence();
   void evaluate();
 
   struct Collection
@@ -57,10 +63,13 @@ private:
     PoseTrack marker, stylus;
     std::vector<BallSighting> sightings;
     double seconds = 0, beginSec = -1;
+    int run = 0;  ///< whose it is
   };
 
   WorkThread& work_;
   bool isRunning_ = false;
+  int run_ = 0;     ///< counts the starts: what an earlier one found late is nobody's
+  QTimer silence_;  ///< runs while frames are waited for
   std::optional<CameraModel> camera_;
   Eigen::Vector3d tip_Stylus_ = Eigen::Vector3d::Zero();
   std::mutex mutex_;

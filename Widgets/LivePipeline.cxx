@@ -12,7 +12,7 @@ namespace handeye
 namespace
 {
 
-constexpr double StagesEachSec = 0.2, ShownEachSec = 1.0 / 31;
+constexpr qint64 StagesEachMs = 200, ShownEachMs = 32;
 
 }  // namespace
 
@@ -20,6 +20,9 @@ LivePipeline::LivePipeline(WorkThread& work, QObject* parent)
   : QObject(parent)
   , work_(work)
 {
+  nextShowing_.setSingleShot(true);
+  nextShowing_.setTimerType(Qt::PreciseTimer);
+  connect(&nextShowing_, &QTimer::timeout, this, &LivePipeline::show);
 }
 
 void LivePipeline::setSettings(const Settings& settings)
@@ -40,6 +43,11 @@ void LivePipeline::take(const devices::PairedFrame& frame)
 
 void LivePipeline::clear()
 {
+  {
+    const std::lock_guard lock(mutex_);
+    pending_.reset();
+  }
+  nextShowing_.stop();
   newest_.reset();
   emit shown();
 }
@@ -57,7 +65,7 @@ void LivePipeline::process(const devices::PairedFrame& frame)
   {
     listener(view->frame, view->ball);
   }
-  publish(std::move(view));
+  publish(view);
 }
 
 void LivePipeline::lookForBall(LiveView& view)
@@ -70,10 +78,9 @@ void LivePipeline::lookForBall(LiveView& view)
         BallDetector(active_.camera->withImageSize(view.image().cols, view.image().rows), active_.ballRadiusMm, active_.detection));
     }
     view.ball = tracker_->next(view.image());
-    const double nowSec = devices::systemTimeSec();
-    if (active_.drawsStages && nowSec - stagesSec_ > StagesEachSec)
+    if (active_.drawsStages && (!sinceStages_.isValid() || sinceStages_.elapsed() > StagesEachMs))
     {
-      stagesSec_ = nowSec;
+      sinceStages_.start();
       view.stages = drawBallStages(view.image(), *view.ball, active_.camera->withImageSize(view.image().cols, view.image().rows),
         active_.ballRadiusMm, active_.detection);
     }
@@ -84,34 +91,44 @@ void LivePipeline::lookForBall(LiveView& view)
   }
 }
 
-void LivePipeline::publish(std::shared_ptr<const LiveView> view)
+void LivePipeline::publish(const std::shared_ptr<LiveView>& view)
 {
-  const double nowSec = devices::systemTimeSec();
-  if (nowSec - publishedSec_ < ShownEachSec && !view->stages)
-  {
-    return;
-  }
-  publishedSec_ = nowSec;
   bool isOnItsWay = false;
   {
     const std::lock_guard lock(mutex_);
     isOnItsWay = pending_ != nullptr;
-    pending_ = std::move(view);
+    if (isOnItsWay && pending_->stages && !view->stages)
+    {
+      view->stages = std::move(pending_->stages);  // they come now and then only
+    }
+    pending_ = view;
   }
   if (!isOnItsWay)
   {
     QMetaObject::invokeMethod(
-      this,
-      [this]
-      {
-        {
-          const std::lock_guard lock(mutex_);
-          newest_ = std::exchange(pending_, nullptr);
-        }
-        emit shown();
-      },
-      Qt::QueuedConnection);
+      this, [this] { show(); }, Qt::QueuedConnection);
   }
+}
+
+/// In the window's thread: the frame that waits, or, where it is too soon, whichever waits then.
+void LivePipeline::show()
+{
+  const qint64 waitMs = sinceShown_.isValid() ? ShownEachMs - sinceShown_.elapsed() : 0;
+  if (waitMs > 0)
+  {
+    nextShowing_.start(int(waitMs));
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    if (!pending_)
+    {
+      return;
+    }
+    newest_ = std::exchange(pending_, nullptr);
+  }
+  sinceShown_.start();
+  emit shown();
 }
 
 }  // namespace handeye

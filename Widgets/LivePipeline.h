@@ -8,8 +8,10 @@
 #include "CameraModel.h"
 #include "FramePairing.h"
 
+#include <QElapsedTimer>
 #include <QObject>
 #include <QString>
+#include <QTimer>
 
 #include <atomic>
 #include <functional>
@@ -36,7 +38,7 @@ struct LiveView
 
 /// What happens to each frame of the live video beside the window: the ball is looked for, who listens is told (captures, a
 /// measurement of the latency), and the frame is handed to the window. Frames that come too fast are left out, in the work as in
-/// the window.
+/// the window; the last one that came is shown in any case, if a moment later.
 ///
 /// Belongs to the thread of the user interface; take() may be called from any.
 class LivePipeline : public QObject
@@ -77,20 +79,23 @@ signals:
 private:
   void process(const devices::PairedFrame& frame);
   void lookForBall(LiveView& view);
-  void publish(std::shared_ptr<const LiveView> view);
+  void publish(const std::shared_ptr<LiveView>& view);
+  void show();
 
   WorkThread& work_;
   Settings settings_;
   std::vector<Listener> listeners_;
   std::shared_ptr<const LiveView> newest_;
+  QElapsedTimer sinceShown_;
+  QTimer nextShowing_;  ///< runs while a frame waits for its turn
 
   // Of the work's thread
   Settings active_;
   std::unique_ptr<BallTracker> tracker_;
-  double stagesSec_ = 0, publishedSec_ = 0;
+  QElapsedTimer sinceStages_;
 
   std::mutex mutex_;
-  std::shared_ptr<const LiveView> pending_;  ///< on its way to the window
+  std::shared_ptr<LiveView> pending_;  ///< on its way to the window
 };
 
 }  // namespace handeye

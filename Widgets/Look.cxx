@@ -51,6 +51,11 @@ QColor seriesColor(int index, const QPalette& palette)
   return isDark(palette) ? onDark[wrapped] : onLight[wrapped];
 }
 
+Level errorLevel(double meanPx)
+{
+  return !std::isfinite(meanPx) ? Level::Info : meanPx < 1 ? Level::Good : meanPx < 3 ? Level::Warning : Level::Error;
+}
+
 QIcon icon(const QString& name)
 {
   initializeIcons();

@@ -33,6 +33,10 @@ QColor seriesColor(int index, const QPalette& palette);
 /// dark ground. A name that is not there gives a null icon.
 QIcon icon(const QString& name);
 
+/// What a projection error means: good below 1 px mean, to be looked at (`fair`) below 3, and not to be worked with (`poor`) above; the
+/// limits of `handeye calibrate` and `validate`. Nothing for an error that is not known.
+Level errorLevel(double meanPx);
+
 /// "info", "ok", "warning", "error": a shape for each level.
 QIcon levelIcon(Level level);
 

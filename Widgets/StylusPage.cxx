@@ -17,6 +17,11 @@ StylusPage::StylusPage(HandEyeWorkbench& workbench, QWidget* parent)
   , ui_(std::make_unique<Ui::StylusPage>())
 {
   ui_->setupUi(this);
+  // Both change while a person pivots: there is room for the longest of them, and the page does not move.
+  for (QLabel* const label : { ui_->errorLabel, ui_->posesLabel })
+  {
+    label->setMinimumHeight(2 * label->fontMetrics().lineSpacing());
+  }
   PivotTask& pivot = workbench_.pivot();
   connect(ui_->startButton, &QPushButton::clicked, this,
     [this] { workbench_.pivot().start(workbench_.devices().setup().stylusToTracker); });

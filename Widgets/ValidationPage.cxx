@@ -53,6 +53,7 @@ ValidationPage::ValidationPage(HandEyeWorkbench& workbench, QWidget* parent)
         workbench_.validationCapture().importRecording(path);
       }
     });
+  connect(ui_->againButton, &QPushButton::clicked, &capture, &CaptureTask::evaluateAgain);
   connect(&capture, &CaptureTask::hintChanged, this, [this] { ui_->hintLabel->setText(workbench_.validationCapture().hint()); });
   connect(&capture, &CaptureTask::accepted, this, [this](int id) { ui_->hintLabel->setText(tr("Sample %1 is stored.").arg(id)); });
   connect(&workbench_, &HandEyeWorkbench::validationChanged, this, &ValidationPage::showValidation);
@@ -83,7 +84,10 @@ void ValidationPage::showValidation()
   ui_->plot->setSeries(series);
   ui_->statistics->setSeries(series);
   ui_->table->setRows(validationRows(workbench_.validationCapture().samples(), validation));
-  ui_->verdictLabel->setText(validation ? QString::fromStdString(validation->message) : tr("No placements to test on yet."));
+  // A verdict that opens Next stands beside it.
+  const QString verdict = validation ? QString::fromStdString(validation->message) : tr("No placements to test on yet.");
+  ui_->verdictLabel->setText(workbench_.problemOf(WizardStep::Validation).isEmpty() ? QString() : verdict);
+  ui_->verdictLabel->setVisible(!ui_->verdictLabel->text().isEmpty());
 }
 
 void ValidationPage::refresh()
@@ -93,6 +97,7 @@ void ValidationPage::refresh()
   ui_->handsFreeBox->setEnabled(isReady && isLive);
   ui_->takeButton->setEnabled(isReady && isLive);
   ui_->recordingButton->setEnabled(isReady && !workbench_.validationCapture().isBusy());
+  ui_->againButton->setVisible(workbench_.validationCapture().isBroken());
 }
 
 }  // namespace handeye

@@ -5,8 +5,6 @@
 #include "SphereCone.h"
 #include "vtkHandEyeOverlayPipeline.h"
 
-#include <QTimer>
-
 #include <cmath>
 
 namespace handeye
@@ -59,6 +57,8 @@ VideoPresenter::VideoPresenter(HandEyeWorkbench& workbench, VideoView& view, QOb
     });
   connect(&workbench_.capture(), &CaptureTask::accepted, &view_, &VideoView::flash);
   connect(&workbench_.validationCapture(), &CaptureTask::accepted, &view_, &VideoView::flash);
+  catchUp_.setSingleShot(true);
+  connect(&catchUp_, &QTimer::timeout, this, &VideoPresenter::showFrame);
   view_.setPlaceholderText(tr("No video. Connect devices on the page Devices."));
   setLens();
 }
@@ -84,10 +84,16 @@ void VideoPresenter::showFrame()
     return;
   }
   // Where drawing is slow (OpenGL in software), at least half of the time is left to everything else.
-  if (sinceShown_.isValid() && sinceShown_.elapsed() < 2 * costMs_)
+  const qint64 waitMs = sinceShown_.isValid() ? 2 * costMs_ - sinceShown_.elapsed() : 0;
+  if (waitMs > 0)
   {
+    if (!catchUp_.isActive())
+    {
+      catchUp_.start(int(waitMs));
+    }
     return;
   }
+  catchUp_.stop();
   sinceShown_.start();
   QTimer::singleShot(0, this, [this] { costMs_ = sinceShown_.elapsed(); });
   try

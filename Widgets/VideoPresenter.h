@@ -8,6 +8,7 @@
 
 #include <QElapsedTimer>
 #include <QObject>
+#include <QTimer>
 
 namespace handeye
 {
@@ -34,6 +35,7 @@ private:
   OverlayPresenter* overlay_;
   QElapsedTimer sinceShown_;
   qint64 costMs_ = 0;  ///< of the last frame, drawing included
+  QTimer catchUp_;     ///< runs while a frame was left out that may be the last
   bool hasLens_ = false;
 };
 

@@ -74,7 +74,19 @@ public:
   vtkNew<vtkCallbackCommand> rendered;
   QTimer renderTimer;
   QVariantAnimation flash;
+  /// A mark belongs to its picture, and is not seen before that.
+  void applyDetection()
+  {
+    if (this->nextDetection)
+    {
+      this->marks->detection = *this->nextDetection;
+      this->nextDetection.reset();
+      this->marks->update();
+    }
+  }
+
   std::optional<QPointF> mappedFirst, mappedSecond;
+  std::optional<std::optional<VideoView::DetectionMark>> nextDetection;  ///< of the picture that is about to be drawn
 };
 
 VideoView::VideoView(QWidget* parent)
@@ -94,7 +106,12 @@ VideoView::VideoView(QWidget* parent)
   d->pipeline->AttachTo(d->window);
 
   d->rendered->SetClientData(d.get());
-  d->rendered->SetCallback([](vtkObject*, unsigned long, void* self, void*) { static_cast<Private*>(self)->followPicture(); });
+  d->rendered->SetCallback(
+    [](vtkObject*, unsigned long, void* self, void*)
+    {
+      static_cast<Private*>(self)->followPicture();
+      static_cast<Private*>(self)->applyDetection();
+    });
   d->window->AddObserver(vtkCommand::EndEvent, d->rendered);
 
   d->renderTimer.setSingleShot(true);
@@ -106,6 +123,7 @@ VideoView::VideoView(QWidget* parent)
       {
         d->window->Render();
       }
+      d->applyDetection();
     });
 
   d->flash.setDuration(450);
@@ -175,8 +193,11 @@ void VideoView::requestRender()
 
 void VideoView::setDetection(const std::optional<DetectionMark>& detection)
 {
-  d->marks->detection = detection;
-  d->marks->update();
+  d->nextDetection = detection;
+  if (!d->renderTimer.isActive())
+  {
+    d->applyDetection();
+  }
 }
 
 void VideoView::setGhostBall(const std::optional<GhostBall>& ghost)

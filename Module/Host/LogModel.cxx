@@ -19,16 +19,27 @@ LogModel::LogModel(QObject* parent)
 void LogModel::append(Level level, const QString& text)
 {
   const QDateTime now = QDateTime::currentDateTime();
-  if (QThread::currentThread() == this->thread())
+  const bool isHere = QThread::currentThread() == this->thread();
+  if (isHere && this->State == Storing::No)
   {
-    this->store(now, level, text);
-    return;
+    this->store(now, level, text, Storing::Line);
   }
-  QMetaObject::invokeMethod(
-    this, [this, now, level, text] { this->store(now, level, text); }, Qt::QueuedConnection);
+  else if (!isHere || this->State == Storing::Line)
+  {
+    const Storing kind = isHere ? Storing::LineOfAListener : Storing::Line;
+    QMetaObject::invokeMethod(
+      this, [this, now, level, text, kind] { this->store(now, level, text, kind); }, Qt::QueuedConnection);
+  }
 }
 
-void LogModel::store(const QDateTime& time, Level level, const QString& text)
+void LogModel::store(const QDateTime& time, Level level, const QString& text, Storing kind)
+{
+  this->State = kind;
+  this->insert(time, level, text);
+  this->State = Storing::No;
+}
+
+void LogModel::insert(const QDateTime& time, Level level, const QString& text)
 {
   const int row = int(this->Entries.size());
   if (row >= this->MaximumCount)

@@ -36,7 +36,8 @@ public:
 
   explicit LogModel(QObject* parent = nullptr);
 
-  /// A text of several lines stays one entry.
+  /// A text of several lines stays one entry. What a listener of the log has to say of a line comes after it; what it has to say of that
+  /// again is left out, since it would go on for ever.
   void append(Level level, const QString& text);
   void clear();
   void setMaximumCount(int count);
@@ -63,11 +64,20 @@ private:
     QString text;
   };
 
-  void store(const QDateTime& time, Level level, const QString& text);
+  enum class Storing
+  {
+    No,
+    Line,
+    LineOfAListener
+  };
+
+  void store(const QDateTime& time, Level level, const QString& text, Storing kind);
+  void insert(const QDateTime& time, Level level, const QString& text);
 
   std::deque<Entry> Entries;
   int MaximumCount = 5000;
   int Counts[3] = {};
+  Storing State = Storing::No;
 };
 
 }  // namespace desktop

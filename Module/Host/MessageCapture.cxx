@@ -7,6 +7,7 @@
 
 #include <QMutex>
 #include <QMutexLocker>
+#include <QThread>
 
 #include <cstdio>
 
@@ -20,13 +21,24 @@ QMutex captureMutex;
 LogModel* capturedInto = nullptr;
 QtMessageHandler formerHandler = nullptr;
 
+/// The mutex is not held while those who listen to the log are told: what they say themselves comes here again.
 void put(LogModel::Level level, const QString& text)
 {
-  const QMutexLocker lock(&captureMutex);
-  if (capturedInto)
+  LogModel* own = nullptr;
   {
-    capturedInto->append(level, text);
+    const QMutexLocker lock(&captureMutex);
+    if (!capturedInto)
+    {
+      return;
+    }
+    if (QThread::currentThread() != capturedInto->thread())
+    {
+      capturedInto->append(level, text);  // put into a queue
+      return;
+    }
+    own = capturedInto;  // nobody else takes it away: that happens in this thread
   }
+  own->append(level, text);
 }
 
 void handleQtMessage(QtMsgType type, const QMessageLogContext& context, const QString& text)
@@ -35,16 +47,8 @@ void handleQtMessage(QtMsgType type, const QMessageLogContext& context, const QS
   {
     formerHandler(type, context, text);
   }
-  // Asking for a warning of the log model itself, while it appends, would never come back.
-  static thread_local bool inside = false;
-  if (inside)
-  {
-    return;
-  }
-  inside = true;
   const bool isError = type == QtCriticalMsg || type == QtFatalMsg;
   put(isError ? LogModel::Level::Error : type == QtWarningMsg ? LogModel::Level::Warning : LogModel::Level::Info, text);
-  inside = false;
 }
 
 class LogOutputWindow : public vtkOutputWindow

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ErrorDistancePlot.h"
 
+#include "ChartCanvas.h"
 #include "Look.h"
 #include "StatisticsTable.h"
 #include "WidgetTestSupport.h"
 
 #include <QClipboard>
+#include <QHelpEvent>
 #include <QLabel>
+#include <QToolTip>
 #include <vtkAxis.h>
 #include <vtkChartXY.h>
 #include <vtkDoubleArray.h>
@@ -16,6 +19,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 using namespace handeye;
 
@@ -55,6 +59,18 @@ int countOf(const QImage& image, const QColor& color)
   return count;
 }
 
+ChartCanvas& canvasOf(const ErrorDistancePlot& plot)
+{
+  for (QWidget* const child : plot.findChildren<QWidget*>())
+  {
+    if (auto* const canvas = dynamic_cast<ChartCanvas*>(child))
+    {
+      return *canvas;
+    }
+  }
+  throw std::logic_error("there is no canvas");
+}
+
 const QVector<QPointF> Points{ { 150, 0.4 }, { 300, 1.2 }, { 420, 0.8 } };
 
 }  // namespace
@@ -69,11 +85,11 @@ private slots:
     ErrorDistancePlot plot;
     testing_widgets::show(plot, { 480, 320 });
     plot.setSeries({});
-    QVERIFY(!plot.findChild<QVTKOpenGLNativeWidget*>()->isVisible());
+    QVERIFY(!canvasOf(plot).isVisible());
     plot.setSeries({ seriesOf(QStringLiteral("empty"), {}) });
-    QVERIFY(!plot.findChild<QVTKOpenGLNativeWidget*>()->isVisible());
+    QVERIFY(!canvasOf(plot).isVisible());
     plot.setSeries({ seriesOf(QStringLiteral("validation"), Points) });
-    QVERIFY(plot.findChild<QVTKOpenGLNativeWidget*>()->isVisible());
+    QVERIFY(canvasOf(plot).isVisible());
   }
 
   void TheChart_HoldsThePointsTheMeanAndTheUnits()
@@ -117,6 +133,33 @@ private slots:
       QVERIFY(countOf(seen, seriesColor(0, plot.palette())) > 60);
       QVERIFY(countOf(seen, seriesColor(1, plot.palette())) > 40);
     }
+  }
+
+  /// Where VTK's axes say that a point is, there its mark is, and there its numbers are said.
+  void AMark_IsAtItsNumbers_AndSaysThem()
+  {
+    QApplication::setPalette(testing_widgets::lightPalette());
+    ErrorDistancePlot plot;
+    testing_widgets::show(plot, { 480, 320 });
+    plot.setSeries({ seriesOf(QStringLiteral("validation"), { { 150, 0.4 }, { 300, 1.2 } }) });
+    ChartCanvas& canvas = canvasOf(plot);
+    const QImage seen = canvas.grab().toImage();
+    vtkAxis* bottom = plot.chart()->GetAxis(vtkAxis::BOTTOM);
+    vtkAxis* left = plot.chart()->GetAxis(vtkAxis::LEFT);
+    const double x = bottom->GetPoint1()[0] +
+      (300 - bottom->GetMinimum()) / (bottom->GetMaximum() - bottom->GetMinimum()) *
+        (bottom->GetPoint2()[0] - bottom->GetPoint1()[0]);
+    const double y = left->GetPoint1()[1] +
+      (1.2 - left->GetMinimum()) / (left->GetMaximum() - left->GetMinimum()) * (left->GetPoint2()[1] - left->GetPoint1()[1]);
+    const QPoint place(qRound(x), qRound(canvas.height() - y));
+    // The outline has the colour, what it fills is lighter.
+    const QRect mark(place * seen.devicePixelRatio() - QPoint(7, 7), QSize(15, 15));
+    QVERIFY(countOf(seen.copy(mark), seriesColor(0, plot.palette())) >= 10);
+    QCOMPARE(countOf(seen.copy(mark.translated(30, 0)), seriesColor(0, plot.palette())), 0);
+    QHelpEvent help(QEvent::ToolTip, place, canvas.mapToGlobal(place));
+    QApplication::sendEvent(&canvas, &help);
+    QTRY_VERIFY(QToolTip::text().contains(QStringLiteral("1.20")));
+    QVERIFY2(QToolTip::text().contains(QStringLiteral("300")), qPrintable(QToolTip::text()));
   }
 
   void ThePaletteChangesWhileItIsShown()

@@ -126,8 +126,8 @@ private slots:
     this->next("comparison", 60000, watch);  // left out
     QTest::qWait(1500);
     this->note("overlay", watch);
-    qInfo("%.0f s from the first page to the overlay; longest stall of all pages %.0f ms", double(clock.elapsed()) / 1000,
-      this->LongestMs);
+    qInfo("%.0f s from the first page to the overlay; longest stall of all pages %.0f ms, by the thread's own work %.0f ms",
+      double(clock.elapsed()) / 1000, this->LongestMs, this->LongestWorkMs);
     const QJsonArray saved = savedMarkerToCamera(this->Sessions);
     QCOMPARE(saved.size(), 4);
     const Eigen::Isometry3d truth = handeye::simulation::RoomOptions().markerToCamera;
@@ -136,8 +136,8 @@ private slots:
     qInfo("off the truth by %.3f deg and %.2f mm", turnDeg, error.translation().norm());
     QVERIFY(turnDeg < 0.4);
     QVERIFY(error.translation().norm() < 2.5);
-    // The aim is 100 ms and 62 ms were measured; a machine that others use, too, may take a core away in the middle of it.
-    QVERIFY2(this->LongestMs < 500, qPrintable(QString("%1 ms").arg(this->LongestMs)));
+    // What the window's thread itself works: a busy machine changes that little, and the rest a lot.
+    QVERIFY2(this->LongestWorkMs < 100, qPrintable(QString("%1 ms").arg(this->LongestWorkMs)));
   }
 
   void everyPage_IsPhotographedAtBothSizes()
@@ -199,9 +199,11 @@ private:
 
   void note(const char* page, EventLoopWatch& watch)
   {
-    const double stallMs = watch.takeLongestMs();
-    qInfo("%s: longest stall %.0f ms, longest drawing %.0f ms", page, stallMs, watch.takeLongestDrawingMs());
+    const double stallMs = watch.takeLongestMs(), workMs = watch.takeLongestWorkMs();
+    qInfo("%s: longest stall %.0f ms, drawing %.0f ms; by the thread's own work %.0f ms, drawing %.0f ms", page, stallMs,
+      watch.takeLongestDrawingMs(), workMs, watch.takeLongestDrawingWorkMs());
     this->LongestMs = std::max(this->LongestMs, stallMs);
+    this->LongestWorkMs = std::max(this->LongestWorkMs, workMs);
     watch.watchDrawing();
   }
 
@@ -213,7 +215,7 @@ private:
 
   QString Sessions;
   std::unique_ptr<DesktopWindow> Window;
-  double LongestMs = 0;
+  double LongestMs = 0, LongestWorkMs = 0;
 };
 
 DESKTOP_TEST_MAIN(ModuleInDesktopTest)

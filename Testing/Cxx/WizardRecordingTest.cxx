@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CameraFile.h"
+#include "ExportPanel.h"
 #include "LandmarkFiles.h"
 #include "ResultFiles.h"
 #include "SampleTable.h"
@@ -112,7 +113,61 @@ private slots:
   void session_ReopenedBringsEverythingBack();
   void session_KilledKeepsWhatWasAnnounced();
   void calibrationOfAnotherTime_IsValidated();
+  void evaluation_CancelledIsSaidAndMadeUpFor();
+  void anotherSession_HasNothingOfTheOneBefore();
 };
+
+/// Another radius asks for the stored samples to be looked at again; as long as that is not done, nothing is calibrated from them.
+void WizardRecordingTest::evaluation_CancelledIsSaidAndMadeUpFor()
+{
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  testing_widgets::show(panel, QSize(1280, 800));
+  loadInputs(panel);
+  importCapture(panel);
+  WizardDriver driver(panel);
+  HandEyeWorkbench& workbench = panel.workbench();
+  QVERIFY(!driver.onPage("againButton")->isVisible());
+  workbench.setBallRadius(15.2);
+  QTRY_VERIFY_WITH_TIMEOUT(driver.find("cancelButton")->isVisible(), PatienceMs);
+  driver.click(driver.find("cancelButton"));
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.capture().isBroken(), PatienceMs);
+  QVERIFY2(driver.message().contains(QStringLiteral("cancelled")), qPrintable(driver.message()));
+  QVERIFY2(driver.reason().contains(QStringLiteral("Look again")), qPrintable(driver.reason()));
+  QVERIFY(!driver.canGoNext());
+  QTRY_VERIFY(!workbench.calibration());
+  QVERIFY(driver.onPage("againButton")->isVisible());
+  driver.click(driver.onPage("againButton"));
+  QTRY_VERIFY_WITH_TIMEOUT(
+    !workbench.capture().isBusy() && workbench.calibration() && workbench.calibration()->isUsable(), PatienceMs);
+  QCOMPARE(workbench.calibration()->ballRadiusMm, 15.2);
+  QVERIFY(!driver.onPage("againButton")->isVisible());
+}
+
+void WizardRecordingTest::anotherSession_HasNothingOfTheOneBefore()
+{
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  testing_widgets::show(panel, QSize(1280, 800));
+  loadInputs(panel);
+  importCapture(panel);
+  HandEyeWorkbench& workbench = panel.workbench();
+  panel.goTo(WizardStep::Finish);
+  const auto exportFolder = [&panel] { return panel.findChild<handeye::ExportPanel*>()->folder(); };
+  const QString before = exportFolder();
+  panel.goTo(WizardStep::Overlay);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.model(), PatienceMs);
+  const std::vector<Eigen::Vector3d> points = { { 0, 0, 0 }, { 40, 0, 0 }, { 0, 30, 0 }, { 0, 0, 50 } };
+  workbench.registerLandmarks(points, points);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.modelToPhantom(), PatienceMs);
+  panel.goTo(WizardStep::Devices);
+  QTemporaryDir folder;
+  workbench.openSession(folder.filePath(QStringLiteral("another")));
+  QVERIFY(!workbench.model() && workbench.modelPath().isEmpty() && !workbench.modelToPhantom() && !workbench.registration());
+  QVERIFY(!workbench.camera() && !workbench.stylus());
+  QTRY_VERIFY_WITH_TIMEOUT(!workbench.calibration() && workbench.capture().samples().isEmpty(), PatienceMs);
+  panel.goTo(WizardStep::Finish);
+  QVERIFY(exportFolder() != before);
+  QVERIFY2(exportFolder().startsWith(folder.path()), qPrintable(exportFolder()));
+}
 
 void WizardRecordingTest::recording_FromFirstPageToLast()
 {

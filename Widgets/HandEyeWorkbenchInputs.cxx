@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BallColorLearning.h"
+#include "CameraFileWriter.h"
+#include "HandEyeWorkbench.h"
+#include "JsonEigen.h"
+#include "ResultFiles.h"
+#include "WorkThread.h"
+
+#include <utility>
+
+namespace handeye
+{
+
+namespace
+{
+
+nlohmann::json cameraDocument(const HandEyeWorkbench::Camera& camera)
+{
+  const CameraModel& lens = camera.file.camera;
+  return { { "schema", "handeye-camera/1" }, { "origin", camera.origin.toStdString() },
+    { "camera",
+      { { "width", lens.width() }, { "height", lens.height() }, { "cameraMatrix", toJson(lens.cameraMatrix()) },
+        { "distortionCoefficients", lens.distortionCoefficients() } } } };
+}
+
+}  // namespace
+
+/// Captures take the camera, the stylus and the ball as they are now.
+void HandEyeWorkbench::updateInputs()
+{
+  std::optional<CaptureInputs> inputs;
+  if (camera_ && stylus_ && ball_.radiusMm > 0)
+  {
+    CaptureInputs found{ camera_->file.camera, stylus_->tip_Stylus, ball_.radiusMm, {}, {} };
+    found.detection.color = ball_.color;
+    const DeviceSetup& setup = devices_->setup();
+    found.tools.stylusToTracker = setup.stylusToTracker.toStdString();
+    found.tools.markerToTracker = setup.markerToTracker.toStdString();
+    found.tools.latencySec = setup.latencySec;
+    inputs = found;
+  }
+  capture_->setInputs(inputs);
+  validationCapture_->setInputs(inputs);
+  updateLive();
+  recalibrate();
+}
+
+void HandEyeWorkbench::loadCamera(const QString& path)
+{
+  beside(WizardStep::Camera,
+    [this, path]
+    {
+      const io::CameraFile file = io::readCameraFile(path.toStdString());
+      tell([this, file, path] { setCamera(file, path); });
+    });
+}
+
+void HandEyeWorkbench::setCamera(const io::CameraFile& file, const QString& origin)
+{
+  const bool isOtherLens = calibration_ &&
+    (!calibration_->camera.cameraMatrix().isApprox(file.camera.cameraMatrix()) ||
+      calibration_->camera.distortionCoefficients() != file.camera.distortionCoefficients());
+  camera_ = Camera{ file, origin };
+  store("camera", cameraDocument(*camera_));
+  if (isCalibrationLoaded_ && isOtherLens)
+  {
+    // Nothing can be calibrated anew: it came without samples.
+    isCalibrationLoaded_ = false;
+    calibration_.reset();
+    emit calibrationChanged();
+    refuse(WizardStep::Camera, tr("The calibration that was loaded is of another lens and is not used any more."));
+  }
+  emit cameraChanged();
+  emit happened(tr("camera: %1").arg(origin));
+  updateInputs();
+}
+
+void HandEyeWorkbench::useCalibratedLens()
+{
+  const std::optional<LensTask::Result>& result = lens_->result();
+  if (!result || !result->calibration.isUsable())
+  {
+    refuse(WizardStep::Camera, tr("No lens has been calibrated yet."));
+    return;
+  }
+  const QString board = QString::fromStdString(toString(result->board));
+  const io::CameraFile file{ *result->calibration.camera, std::nullopt, "OpenCV", {} };
+  setCamera(file, tr("the calibration with the board %1").arg(board));
+  if (capture_->isOpen())
+  {
+    beside(WizardStep::Camera,
+      [file, path = sessionFolder() + QStringLiteral("/camera.yml"), rmsPx = result->calibration.rmsPx]
+      {
+        std::vector<std::string> warnings;
+        io::CameraFileExtras extras;
+        extras.reprojectionErrorPx = rmsPx;
+        io::writeCameraFile(path.toStdString(), file, io::CameraFormat::OpenCV, warnings, extras);
+      });
+  }
+}
+
+void HandEyeWorkbench::loadStylus(const QString& path)
+{
+  beside(WizardStep::Stylus,
+    [this, path]
+    {
+      const std::filesystem::path file = path.toStdString();
+      Stylus stylus{ readStylusTip(file), readStylusTipCovariance(file), 0, {}, readStylus(file), readStylusTipFrame(file) };
+      const nlohmann::json rms = stylus.document.value("rmsMm", nlohmann::json());
+      stylus.rmsMm = rms.is_number() ? rms.get<double>() : 0;
+      stylus.message = QString::fromStdString(stylus.document.value("message", std::string()));
+      tell([this, stylus] { setStylus(stylus, true); });
+    });
+}
+
+void HandEyeWorkbench::takeStylusTip(const Eigen::Vector3d& tip_Stylus, const QString& origin)
+{
+  Stylus stylus;
+  stylus.tip_Stylus = tip_Stylus;
+  stylus.message = tr("Tip %1, %2, %3 mm, %4; how exact it is, is not known.")
+                     .arg(tip_Stylus.x(), 0, 'f', 2)
+                     .arg(tip_Stylus.y(), 0, 'f', 2)
+                     .arg(tip_Stylus.z(), 0, 'f', 2)
+                     .arg(origin);
+  stylus.document = { { "schema", "handeye-stylus/1" }, { "status", "ok" }, { "tip_Stylus_Mm", toJson(tip_Stylus) },
+    { "message", stylus.message.toStdString() } };
+  setStylus(stylus, true);
+}
+
+void HandEyeWorkbench::setStylus(const Stylus& stylus, bool isNew)
+{
+  stylus_ = stylus;
+  if (isNew)
+  {
+    store("stylus", stylus.document);
+    emit happened(tr("stylus: %1").arg(stylus.message));
+  }
+  emit stylusChanged();
+  updateInputs();
+}
+
+void HandEyeWorkbench::setBallRadius(double radiusMm)
+{
+  if (radiusMm != ball_.radiusMm)
+  {
+    ball_.radiusMm = radiusMm;
+    ball_.wasSeen = false;
+    storeBall();
+    emit ballChanged();
+    updateInputs();
+  }
+}
+
+void HandEyeWorkbench::learnBallColor(const QPointF& point_Image)
+{
+  const std::shared_ptr<const LiveView> view = live_->newest();
+  if (!view)
+  {
+    refuse(WizardStep::Ball, tr("There is no video to click on."));
+    return;
+  }
+  beside(WizardStep::Ball,
+    [this, view, pixel = cv::Point(qRound(point_Image.x()), qRound(point_Image.y()))]
+    {
+      const BallColorLearningResult learnt = handeye::learnBallColor(view->image(), pixel);
+      tell(
+        [this, learnt]
+        {
+          const QString message = QString::fromStdString(learnt.message);
+          if (!learnt.isUsable())
+          {
+            refuse(WizardStep::Ball, message);
+            return;
+          }
+          ball_.color = learnt.color;
+          ball_.isColorLearnt = true;
+          ball_.wasSeen = false;
+          ball_.message = message;
+          storeBall();
+          emit ballChanged();
+          emit happened(tr("ball: %1").arg(message));
+          updateInputs();
+        });
+    });
+}
+
+void HandEyeWorkbench::forgetBallColor()
+{
+  ball_.color = {};
+  ball_.isColorLearnt = ball_.wasSeen = false;
+  ball_.message.clear();
+  storeBall();
+  emit ballChanged();
+  updateInputs();
+}
+
+void HandEyeWorkbench::measureLatency()
+{
+  if (!camera_ || !stylus_)
+  {
+    refuse(WizardStep::Ball, tr("The latency is measured with a camera and a calibrated stylus; both are needed first."));
+    return;
+  }
+  const DeviceSetup& setup = devices_->setup();
+  latency_->start(camera_->file.camera, stylus_->tip_Stylus, setup.markerToTracker, setup.stylusToTracker);
+}
+
+}  // namespace handeye
