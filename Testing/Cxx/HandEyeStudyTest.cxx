@@ -204,6 +204,7 @@ MethodResult methodWith(const char* name, ComparedMethod::Target target, const s
   for (const double error : errorsPx)
   {
     HandEyeValidationSample sample;
+    sample.status = CameraModel::Status::Ok;
     sample.errorPx = error;
     capture.validation.samples.push_back(sample);
   }

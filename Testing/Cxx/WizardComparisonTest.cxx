@@ -247,6 +247,7 @@ void WizardComparisonTest::stop_KeepsTheResultOfBefore()
   driver_->click(driver_->onPage("compareButton"));
   QTRY_VERIFY_WITH_TIMEOUT(progressed.count() > 1, PatienceMs);
   QVERIFY(driver_->onPage<QProgressBar>("progressBar")->isVisible());
+  takePicture(QStringLiteral("wizard-comparison-working-1280x800"));
   driver_->click(driver_->onPage("stopButton"));
   QVERIFY(!driver_->onPage("stopButton")->isEnabled());
   QTRY_VERIFY_WITH_TIMEOUT(!task().isWorking(), PatienceMs);
@@ -287,6 +288,10 @@ void WizardComparisonTest::failingMethods_AreRowsWithTheirReason()
     QCOMPARE(table->columnSpan(row, ComparisonTable::Mean), int(ComparisonTable::ColumnCount) - 1);
   }
   QVERIFY(driver_->onPage<QLabel>("verdictLabel")->text().contains(QStringLiteral("gave no calibration")));
+  QTest::qWait(600);
+  auto* bar = panel_->findChild<QScrollArea*>(QStringLiteral("scrollArea"))->verticalScrollBar();
+  bar->setValue(bar->maximum() / 2);
+  QTest::qWait(300);
   takePicture(QStringLiteral("wizard-comparison-failing-1280x800"));
 }
 
