@@ -20,6 +20,7 @@ BallPage::BallPage(HandEyeWorkbench& workbench, QWidget* parent)
   // What is said of the ball changes with every frame: the page must not move with it.
   constexpr int LinesOfFound = 4;
   ui_->foundLabel->setMinimumHeight(LinesOfFound * ui_->foundLabel->fontMetrics().lineSpacing());
+  ui_->foundLabel->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   ui_->foundLabel->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   connect(ui_->radiusSpin, qOverload<double>(&QDoubleSpinBox::valueChanged), &workbench_, &HandEyeWorkbench::setBallRadius);
   connect(ui_->forgetButton, &QPushButton::clicked, &workbench_, &HandEyeWorkbench::forgetBallColor);

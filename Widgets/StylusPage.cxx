@@ -21,6 +21,7 @@ StylusPage::StylusPage(HandEyeWorkbench& workbench, QWidget* parent)
   for (QLabel* const label : { ui_->errorLabel, ui_->posesLabel })
   {
     label->setMinimumHeight(2 * label->fontMetrics().lineSpacing());
+    label->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);  // a form gives others the width of their words only
   }
   PivotTask& pivot = workbench_.pivot();
   connect(ui_->startButton, &QPushButton::clicked, this,

@@ -165,7 +165,6 @@ void WizardRunTest::simulatedRun_CalibrationIsTheRoomsTruth()
     error.translation().norm(), mahalanobis, double(clock.elapsed()) / 1000);
   qInfo("longest stall %lld ms by the clock; %.0f ms by the window's own work (%s), %d over 50 ms", stalls.longestMs(),
     stalls.longestWorkMs(), qPrintable(stalls.phaseOfLongest()), stalls.countOver50Ms());
-  QVERIFY2(stalls.longestWorkMs() < 100, qPrintable(stalls.phaseOfLongest()));
   QVERIFY(
     mahalanobis < 5.8);  // the 99.999 % quantile of chi with 6 degrees of freedom: which moments are sampled depends on the machine
   QVERIFY(turn.angle() < 0.4 / 57.2958);

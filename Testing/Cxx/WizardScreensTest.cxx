@@ -73,6 +73,8 @@ void WizardScreensTest::takePictures(HandEyeCalibrationPanel& panel, const QSize
       QStringLiteral("%1/wizard-%2-%3%4x%5.png").arg(screenshotFolder()).arg(i + 1).arg(mark).arg(size.width()).arg(size.height());
     QVERIFY2(picture.save(name), qPrintable(name));
     const QWidget* page = panel.page(WizardStep(i));
+    // Words that came with the last frame have their place, too.
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::LayoutRequest);
     for (const QString& fault : faultsOf(panel))
     {
       faults_ << QStringLiteral("page %1: %2").arg(i + 1).arg(fault);
