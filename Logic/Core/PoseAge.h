@@ -55,7 +55,7 @@ struct PoseAge
 
 /// The same for what was placed when all tools were seen at once: if that is longer ago than each tool by itself (they were hidden in
 /// turn), it decides.
-/// @param togetherSec when all of them were last seen at once; nothing: never
+/// @param togetherSec when all of them were last seen at once; nothing: never yet, each tool by itself decides
 [[nodiscard]] PoseAge judgePoseAge(
   const std::vector<ToolSight>& tools, const std::optional<double>& togetherSec, double nowSec, const PoseAgeOptions& options = {});
 
