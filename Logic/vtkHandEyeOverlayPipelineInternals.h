@@ -68,8 +68,8 @@ private:
 namespace handeye
 {
 
-/// Copies a picture (8 bits; grey, BGR or BGRA; top row first) into an image with the bottom row first. Colours become RGBA: four bytes a
-/// pixel go to the graphics card as they are, three are divided up by its driver, which costs more than all else here.
+/// Copies a picture (8 bits; grey, BGR or BGRA; top row first) into an image with the bottom row first. Colours become RGBA: four
+/// bytes a pixel go to the graphics card as they are, three are divided up by its driver, which costs more than all else here.
 /// @throws std::invalid_argument for another type of picture
 void copyFlipped(const cv::Mat& bgr, vtkImageData* image);
 

@@ -283,7 +283,8 @@ void vtkHandEyeOverlayScene::SynchronizeStylus(const vtkHandEyeOverlayState& sta
   }
 }
 
-/// How far (px of the picture) the halo reaches beyond the model, at most: no further than by the error of the worst corner of its box.
+/// How far (px of the picture) the halo reaches beyond the model, at most: no further than by the error of the worst corner of
+/// its box.
 double vtkHandEyeOverlayScene::HaloReach(const vtkHandEyeOverlayState& state) const
 {
   const Eigen::Matrix<double, 3, 8> corners = cornersInCamera(state.Mesh, state.ModelToCamera);

@@ -6,7 +6,8 @@
 
 #include <vtkOpenGLPolyDataMapper.h>
 
-/// Private to the overlay: draws a textured mesh as a frame of video. Nothing is repeated beyond its border (black there), and the picture may be for one of two eyes that share the window's pixels.
+/// Private to the overlay: draws a textured mesh as a frame of video. Nothing is repeated beyond its border (black there), and
+/// the picture may be for one of two eyes that share the window's pixels.
 class vtkHandEyeVideoMapper : public vtkOpenGLPolyDataMapper
 {
 public:

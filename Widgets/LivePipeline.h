@@ -12,6 +12,7 @@
 #include <QString>
 
 #include <atomic>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -27,9 +28,10 @@ class WorkThread;
 struct LiveView
 {
   devices::PairedFrame frame;
-  std::optional<BallDetection> ball;  ///< if the ball was looked for
-  std::optional<BallStages> stages;   ///< if the pictures were asked for, a few times a second
-  QString problem;                    ///< why the ball could not be looked for, a sentence
+  std::optional<devices::PairedFrame> right;  ///< of a stereo rig's right eye, the nearest in time
+  std::optional<BallDetection> ball;          ///< if the ball was looked for
+  std::optional<BallStages> stages;           ///< if the pictures were asked for, a few times a second
+  QString problem;                            ///< why the ball could not be looked for, a sentence
 
   const cv::Mat& image() const { return frame.image.frame()->image; }
 };
@@ -65,6 +67,8 @@ public:
 
   /// A frame of the video, from whatever thread.
   void take(const devices::PairedFrame& frame);
+  /// A frame of a stereo rig's right eye, from whatever thread; it is shown with the left eye's frame of its moment.
+  void takeRight(const devices::PairedFrame& frame);
 
   /// The newest frame that was shown; null before the first.
   std::shared_ptr<const LiveView> newest() const { return newest_; }
@@ -77,6 +81,7 @@ signals:
 private:
   void process(const devices::PairedFrame& frame);
   void lookForBall(LiveView& view);
+  std::optional<devices::PairedFrame> rightAt(double timeSec);
   void publish(std::shared_ptr<const LiveView> view);
 
   WorkThread& work_;
@@ -91,6 +96,7 @@ private:
 
   std::mutex mutex_;
   std::shared_ptr<const LiveView> pending_;  ///< on its way to the window
+  std::deque<devices::PairedFrame> right_;   ///< the newest few
 };
 
 }  // namespace handeye

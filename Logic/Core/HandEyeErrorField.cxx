@@ -20,8 +20,8 @@ std::array<float, 3> entries(const Eigen::Matrix2d& symmetric)
   return { float(symmetric(0, 0)), float(symmetric(0, 1)), float(symmetric(1, 1)) };
 }
 
-/// The derivative of a pixel by a motion of what is seen there at a distance of 1 mm. Beyond what the lens model reaches, that of the
-/// place nearest to it on the way to the principal point: nothing is drawn there, but cells that reach there are.
+/// The derivative of a pixel by a motion of what is seen there at a distance of 1 mm. Beyond what the lens model reaches, that of
+/// the place nearest to it on the way to the principal point: nothing is drawn there, but cells that reach there are.
 Eigen::Matrix<double, 2, 6> jacobianAt(const CameraModel& camera, const Eigen::Vector2d& point_Image)
 {
   constexpr int steps = 64;

@@ -35,7 +35,8 @@ struct SequenceMetafileWriterOptions
 class SequenceMetafileWriter
 {
 public:
-  /// @throws FileError where the folder cannot be written to; std::invalid_argument for a field that is the writer's own, or no field
+  /// @throws FileError where the folder cannot be written to; std::invalid_argument for a field that is the writer's own, or no
+  /// field
   explicit SequenceMetafileWriter(const std::filesystem::path& path, const SequenceMetafileWriterOptions& options = {});
   ~SequenceMetafileWriter();
   SequenceMetafileWriter(const SequenceMetafileWriter&) = delete;

@@ -19,7 +19,8 @@ using namespace handeye::test;
 namespace
 {
 
-/// A calibration whose turns and shifts make up for each other where the ball was held, as they do: 0.2 deg and 1 mm, about 250 mm away.
+/// A calibration whose turns and shifts make up for each other where the ball was held, as they do: 0.2 deg and 1 mm, about 250
+/// mm away.
 Covariance6 correlatedCovariance()
 {
   Eigen::Matrix<double, 6, 6> root = Eigen::Matrix<double, 6, 6>::Zero();

@@ -183,7 +183,8 @@ TEST_F(OverlayCommands, TwoEyes_ShareAPicture)
 
 TEST_F(OverlayCommands, RightEyesHalo_IsOfTheRightEye)
 {
-  // All that is uncertain is a turn about the left eye's axis; the right eye is 25 mm beside it and has the same lens, without distortion.
+  // All that is uncertain is a turn about the left eye's axis; the right eye is 25 mm beside it and has the same lens, without
+  // distortion.
   json calibration = json::parse(handeye::testing::readText(file("calibration.json")));
   for (std::size_t i = 0; i < 6; ++i)
   {
