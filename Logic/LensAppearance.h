@@ -52,7 +52,6 @@ struct LensAppearance
   double outputAlpha = 1;                       ///< what the framebuffer's alpha becomes
   std::array<double, 4> picture{ 0, 0, 1, 1 };  ///< x, y (lower left corner), width, height of the picture in the framebuffer
   std::array<int, 2> videoSize{ 1, 1 };
-  bool videoIsBgr = false;
   bool undistortedVideo = false;  ///< `lookup` and `pinhole` then say which pixel of the video belongs where
   LensWarp lookup;
   std::array<double, 4> pinhole{ 1, 1, 0, 0 };     ///< fx fy cx cy, px of the video

@@ -123,7 +123,6 @@ uniform vec3 lensKeyhole;
 uniform float lensGhosting;
 uniform sampler2D lensVideo;
 uniform vec2 lensVideoSize;
-uniform float lensVideoSwap;
 #ifdef LENS_LOOKUP
 noperspective in vec2 lensVideoPlaceVS;
 #endif
@@ -137,8 +136,7 @@ vec3 lensVideoColor(vec2 videoPlace)
     return vec3(0.0);
   }
 #endif
-  vec3 color = texture(lensVideo, videoPlace).rgb;
-  return lensVideoSwap > 0.5 ? color.bgr : color;
+  return texture(lensVideo, videoPlace).rgb;
 }
 
 float lensLuma(vec3 color)

@@ -12,12 +12,13 @@
 #include <vtkPolyDataNormals.h>
 #include <vtkTriangleFilter.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -199,7 +200,77 @@ vtkSmartPointer<vtkPolyData> EdgeDivider::mesh() const
   return mesh;
 }
 
+/// For each point the first one at the same place.
+std::vector<std::uint32_t> distinctPlaces(vtkPolyData* mesh)
+{
+  const auto count = std::size_t(mesh->GetNumberOfPoints());
+  std::vector<std::array<double, 3>> points(count);
+  std::vector<std::uint32_t> order(count), places(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    mesh->GetPoint(vtkIdType(i), points[i].data());
+    order[i] = std::uint32_t(i);
+  }
+  std::sort(order.begin(), order.end(),
+    [&points](std::uint32_t a, std::uint32_t b) { return points[a] < points[b] || (points[a] == points[b] && a < b); });
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const bool isNew = i == 0 || points[order[i]] != points[order[i - 1]];
+    places[order[i]] = isNew ? order[i] : places[order[i - 1]];
+  }
+  return places;
+}
+
 }  // namespace
+
+bool isClosedSurface(vtkPolyData* triangles)
+{
+  const std::vector<std::uint32_t> places = distinctPlaces(triangles);
+  std::vector<std::uint32_t> parts(places.size());
+  std::iota(parts.begin(), parts.end(), 0);
+  const auto partOf = [&parts](std::uint32_t place)
+  {
+    while (parts[place] != place)
+    {
+      place = parts[place] = parts[parts[place]];
+    }
+    return place;
+  };
+  std::vector<std::uint64_t> edges, reversed;
+  vtkCellArray* cells = triangles->GetPolys();
+  std::vector<Triangle> corners;
+  for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+  {
+    vtkIdType count;
+    const vtkIdType* ids;
+    cells->GetCellAtId(cell, count, ids);
+    const Triangle ids3{ places[std::size_t(ids[0])], places[std::size_t(ids[1])], places[std::size_t(ids[2])] };
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const std::uint32_t from = ids3[i], to = ids3[(i + 1) % 3];
+      edges.push_back(std::uint64_t(from) << 32 | to);
+      reversed.push_back(std::uint64_t(to) << 32 | from);
+      parts[partOf(from)] = partOf(to);
+    }
+    corners.push_back(ids3);
+  }
+  std::sort(edges.begin(), edges.end());
+  std::sort(reversed.begin(), reversed.end());
+  if (edges.empty() || edges != reversed || std::adjacent_find(edges.begin(), edges.end()) != edges.end())
+  {
+    return false;
+  }
+  std::unordered_map<std::uint32_t, double> volumes;
+  const auto point = [triangles](std::uint32_t id)
+  { return Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(triangles->GetPoint(vtkIdType(id)))); };
+  const Eigen::Vector3d origin = point(corners.front()[0]);
+  for (const Triangle& triangle : corners)
+  {
+    const Eigen::Vector3d a = point(triangle[0]) - origin, b = point(triangle[1]) - origin, c = point(triangle[2]) - origin;
+    volumes[partOf(triangle[0])] += a.dot(b.cross(c));
+  }
+  return std::all_of(volumes.begin(), volumes.end(), [](const auto& part) { return part.second > 0; });
+}
 
 vtkSmartPointer<vtkPolyData> triangulatedWithNormals(vtkPolyData* model)
 {

@@ -23,6 +23,11 @@ struct OverlayMesh
 /// The input is not changed.
 VTK_SLICER_HANDEYECALIBRATION_MODULE_LOGIC_EXPORT OverlayMesh prepareOverlayMesh(vtkPolyData* model, double longestEdgeMm);
 
+/// Whether every part of a mesh of triangles is closed and turned outward: each edge has two triangles that run along it in
+/// opposite directions (points at exactly the same place are one), and each part has a positive volume. From outside, its back
+/// faces are then always hidden by others.
+VTK_SLICER_HANDEYECALIBRATION_MODULE_LOGIC_EXPORT bool isClosedSurface(vtkPolyData* triangles);
+
 /// Triangles only, with point normals; normals of the input are kept.
 VTK_SLICER_HANDEYECALIBRATION_MODULE_LOGIC_EXPORT vtkSmartPointer<vtkPolyData> triangulatedWithNormals(vtkPolyData* model);
 

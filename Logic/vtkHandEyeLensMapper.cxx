@@ -228,7 +228,6 @@ void vtkHandEyeLensMapper::SetLookParameters(vtkShaderProgram* program)
   program->SetUniformf("lensClipDepth", float(look.clipDepthMm));
   program->SetUniformf("lensRowOffset", float(look.eye.rowOffset));
   program->SetUniformf("lensGhosting", float(look.ghosting));
-  program->SetUniformf("lensVideoSwap", look.videoIsBgr ? 1.0f : 0.0f);
   set2(program, "lensDepthRange", look.depthRangeMm[0], look.depthRangeMm[1]);
   set2(program, "lensVideoSize", look.videoSize[0], look.videoSize[1]);
   set3(program, "lensKeyhole", look.keyhole[0], look.keyhole[1], look.keyhole[2]);

@@ -22,6 +22,8 @@
 #include <vtkVolumetricPass.h>
 #include <vtk_glew.h>
 
+#include <vector>
+
 vtkStandardNewMacro(vtkHandEyeOutlinePass);
 
 namespace
@@ -39,13 +41,12 @@ uniform vec2 depthRange;
 uniform float lineRadius;
 uniform vec3 lineColor;
 uniform float depthStep;
-uniform vec2 haloAxis1;
-uniform vec2 haloAxis2;
 uniform vec3 haloColor;
 uniform float opacity;
 uniform vec3 eye; // luma, alternate rows, offset of the rows
 
 const int lineSteps = 16;
+const int searchSteps = 16;
 const int haloSteps = 20;
 
 float coverage(vec2 place)
@@ -87,22 +88,76 @@ float stepLine()
   return line;
 }
 
+#ifdef WITH_HALO
+// The covariance of a pixel, a polynomial in 1/depth: xx, xy, yy at the nodes of a grid from corner to corner.
+uniform sampler2D haloConstant;
+uniform sampler2D haloLinear;
+uniform sampler2D haloQuadratic;
+uniform vec2 haloGrid;
+uniform vec2 haloScale;
+uniform vec2 haloNearness; // 1/depth where the model is nearest and where it is furthest
+uniform float haloQuantile;
+
+// Takes the unit circle to the ellipse of the error (device px, y up) of what is seen around here, 1/nearness away.
+mat2 haloEllipse(vec3 constant, vec3 linear, vec3 quadratic, float nearness)
+{
+  vec3 covariance = constant + nearness * (linear + nearness * quadratic);
+  float xx = sqrt(max(covariance.x, 1e-12));
+  float xy = covariance.y / xx;
+  float yy = sqrt(max(covariance.z - xy * xy, 0.0));
+  return haloQuantile * mat2(haloScale * vec2(xx, xy), haloScale * vec2(0.0, yy));
+}
+
+float sizeOf(mat2 ellipse)
+{
+  return dot(ellipse[0], ellipse[0]) + dot(ellipse[1], ellipse[1]);
+}
+
+vec2 onCircle(int step, int steps)
+{
+  float angle = 6.2831853 * float(step) / float(steps);
+  return vec2(cos(angle), sin(angle));
+}
+
 float halo()
 {
-  float strength = 0.0;
+  vec2 node = (texCoord * (haloGrid - 1.0) + 0.5) / haloGrid;
+  vec3 constant = texture(haloConstant, node).rgb;
+  vec3 linear = texture(haloLinear, node).rgb;
+  vec3 quadratic = texture(haloQuadratic, node).rgb;
+  mat2 nearest = haloEllipse(constant, linear, quadratic, haloNearness.x);
+  mat2 furthest = haloEllipse(constant, linear, quadratic, haloNearness.y);
+  mat2 search = 1.1 * (sizeOf(nearest) > sizeOf(furthest) ? nearest : furthest);
+  // How near the model is around here, if it is around here at all.
+  float nearness = 0.0;
+  float found = 0.0;
+  for (int i = 0; i < searchSteps + searchSteps / 2; ++i)
+  {
+    bool inner = i >= searchSteps;
+    vec2 away = search * onCircle(inner ? 2 * i + 1 : i, searchSteps) * (inner ? 0.5 : 1.0);
+    float covered = coverage(texCoord + away * texel);
+    nearness += covered / depthMm(texCoord + away * texel);
+    found += covered;
+  }
+  if (found < 0.5)
+  {
+    return 0.0;
+  }
+  mat2 ellipse = haloEllipse(constant, linear, quadratic, nearness / found);
   for (int ring = 1; ring <= 3; ++ring)
   {
-    float found = 0.0;
     for (int i = 0; i < haloSteps; ++i)
     {
-      float angle = 6.2831853 * float(i) / float(haloSteps);
-      vec2 away = float(ring) / 3.0 * (cos(angle) * haloAxis1 + sin(angle) * haloAxis2);
-      found = max(found, coverage(texCoord + away * texel));
+      vec2 away = float(ring) / 3.0 * (ellipse * onCircle(i, haloSteps));
+      if (coverage(texCoord + away * texel) > 0.5)
+      {
+        return 0.95 - 0.2 * float(ring);
+      }
     }
-    strength = max(strength, found * (0.95 - 0.2 * float(ring)));
   }
-  return strength;
+  return 0.0;
 }
+#endif
 
 void main()
 {
@@ -117,7 +172,7 @@ void main()
   {
     float here = coverage(texCoord);
 #ifdef WITH_HALO
-    float around = (1.0 - here) * halo() * opacity;
+    float around = here > 0.5 ? 0.0 : halo() * opacity;
     result = mix(vec4(haloColor, around), result, result.a);
 #endif
 #ifdef WITH_LINE
@@ -235,7 +290,7 @@ void vtkHandEyeOutlinePass::RenderProps(const vtkRenderState* state, vtkOpenGLRe
 void vtkHandEyeOutlinePass::Compose(vtkOpenGLRenderWindow* window, const std::array<int, 4>& rectangle)
 {
   vtkOpenGLState* opengl = window->GetState();
-  const std::string source = fragmentShader(this->Current.line, this->Current.halo);
+  const std::string source = fragmentShader(this->Current.line, this->Current.haloField != nullptr);
   // The cache knows a source that it has compiled before.
   this->Quad = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, source.c_str(), nullptr);
   vtkOpenGLState::ScopedglEnableDisable blending(opengl, GL_BLEND);
@@ -249,12 +304,68 @@ void vtkHandEyeOutlinePass::Compose(vtkOpenGLRenderWindow* window, const std::ar
   opengl->vtkglColorMask(colors[0], colors[1], colors[2], 1);
   opengl->vtkglViewport(rectangle[0], rectangle[1], rectangle[2], rectangle[3]);
   opengl->vtkglScissor(rectangle[0], rectangle[1], rectangle[2], rectangle[3]);
-  this->Colors->Activate();
-  this->Depths->Activate();
+  this->LoadField(window);
+  std::vector<vtkTextureObject*> used{ this->Colors, this->Depths };
+  if (this->Current.haloField)
+  {
+    used.insert(used.end(), this->Field.begin(), this->Field.end());
+  }
+  for (vtkTextureObject* texture : used)
+  {
+    texture->Activate();
+  }
   this->SetParameters(this->Quad->Program, rectangle);
   this->Quad->Render();
-  this->Depths->Deactivate();
-  this->Colors->Deactivate();
+  for (vtkTextureObject* texture : used)
+  {
+    texture->Deactivate();
+  }
+}
+
+/// The field of the error goes to the graphics card when it is another one.
+void vtkHandEyeOutlinePass::LoadField(vtkOpenGLRenderWindow* window)
+{
+  if (!this->Current.haloField || this->Current.haloField == this->LoadedField)
+  {
+    return;
+  }
+  const handeye::HandEyeErrorField& field = *this->Current.haloField;
+  const handeye::HandEyeErrorField::Nodes* const parts[3] = { &field.constant(), &field.linear(), &field.quadratic() };
+  for (std::size_t i = 0; i < this->Field.size(); ++i)
+  {
+    vtkSmartPointer<vtkTextureObject>& texture = this->Field[i];
+    if (!texture)
+    {
+      texture = vtkSmartPointer<vtkTextureObject>::New();
+      texture->SetContext(window);
+      texture->SetMinificationFilter(vtkTextureObject::Linear);
+      texture->SetMagnificationFilter(vtkTextureObject::Linear);
+      texture->SetWrapS(vtkTextureObject::ClampToEdge);
+      texture->SetWrapT(vtkTextureObject::ClampToEdge);
+    }
+    handeye::HandEyeErrorField::Nodes nodes = *parts[i];
+    texture->Create2DFromRaw(
+      handeye::HandEyeErrorField::Columns, handeye::HandEyeErrorField::Rows, 3, VTK_FLOAT, nodes.front().data());
+  }
+  this->LoadedField = this->Current.haloField;
+}
+
+void vtkHandEyeOutlinePass::SetHaloParameters(vtkShaderProgram* program)
+{
+  const char* const names[3] = { "haloConstant", "haloLinear", "haloQuadratic" };
+  for (std::size_t i = 0; i < this->Field.size(); ++i)
+  {
+    program->SetUniformi(names[i], this->Field[i]->GetTextureUnit());
+  }
+  const auto& [nearestMm, furthestMm] = this->Current.modelDepthRangeMm;
+  const float grid[2] = { float(handeye::HandEyeErrorField::Columns), float(handeye::HandEyeErrorField::Rows) };
+  const float scale[2] = { float(this->Current.haloScale[0]), -float(this->Current.haloScale[1]) };  // the field's y is down
+  const float nearness[2] = { float(1 / nearestMm), float(1 / furthestMm) };
+  program->SetUniform2f("haloGrid", grid);
+  program->SetUniform2f("haloScale", scale);
+  program->SetUniform2f("haloNearness", nearness);
+  program->SetUniformf("haloQuantile", float(handeye::ErrorQuantile95));
+  program->SetUniform3f("haloColor", floats(this->Current.haloColor).data());
 }
 
 void vtkHandEyeOutlinePass::SetParameters(vtkShaderProgram* program, const std::array<int, 4>& rectangle)
@@ -272,21 +383,25 @@ void vtkHandEyeOutlinePass::SetParameters(vtkShaderProgram* program, const std::
   program->SetUniformf("lineRadius", float(settings.lineWidthPx / 2));
   program->SetUniform3f("lineColor", floats(settings.lineColor).data());
   program->SetUniformf("depthStep", float(settings.depthStepMm));
-  program->SetUniform2f("haloAxis1", floats(settings.haloAxis1Px).data());
-  program->SetUniform2f("haloAxis2", floats(settings.haloAxis2Px).data());
-  program->SetUniform3f("haloColor", floats(settings.haloColor).data());
+  if (settings.haloField)
+  {
+    this->SetHaloParameters(program);
+  }
 }
 
 void vtkHandEyeOutlinePass::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Quad.reset();
-  for (vtkTextureObject* texture : { this->Colors.Get(), this->Depths.Get() })
+  for (vtkTextureObject* texture :
+    { this->Colors.Get(), this->Depths.Get(), this->Field[0].Get(), this->Field[1].Get(), this->Field[2].Get() })
   {
     if (texture)
     {
       texture->ReleaseGraphicsResources(window);
     }
   }
+  this->Field = {};
+  this->LoadedField.reset();
   if (this->Framebuffer)
   {
     this->Framebuffer->ReleaseGraphicsResources(window);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "HandEyeErrorField.h"
 #include "LensAppearance.h"
 
 #include <vtkNew.h>
@@ -18,7 +19,7 @@ class vtkShaderProgram;
 class vtkTextureObject;
 
 /// Private to the overlay: draws a renderer's props into a texture first, and from there into the window with lines where the model
-/// ends and a halo around it.
+/// ends and a halo around it: where a point of the model may be by 95 % of the error that is predicted for its place and depth.
 ///
 /// Pixels of the model have alpha ModelAlpha, those of other props OtherAlpha, in what the props draw
 /// (LensAppearance::outputAlpha). 2D props (text) come last and untouched.
@@ -35,13 +36,13 @@ public:
     double lineWidthPx = 2;
     std::array<double, 3> lineColor{};
     double depthStepMm = 2;  ///< a surface that lies this much before another has a line between them
-    bool halo = false;
-    std::array<double, 2> haloAxis1Px{};  ///< half axes of the ellipse around each point of the model, x right, y up
-    std::array<double, 2> haloAxis2Px{};
+    std::shared_ptr<const handeye::HandEyeErrorField> haloField;  ///< null: no halo
+    std::array<double, 2> haloScale{ 1, 1 };                      ///< device px by px of the picture
     std::array<double, 3> haloColor{};
     std::array<double, 4> modelRectanglePx{};    ///< x, y, x, y; nothing of the model is outside, seen from the picture's corner
     std::array<double, 2> depthRangeMm{ 1, 2 };  ///< near and far plane
-    double opacity = 1;                          ///< of lines and halo
+    std::array<double, 2> modelDepthRangeMm{ 1, 2 };  ///< nearest and furthest of the model
+    double opacity = 1;                               ///< of lines and halo
     handeye::EyeChannel eye;
   };
 
@@ -64,6 +65,8 @@ private:
   void RenderProps(const vtkRenderState* state, vtkOpenGLRenderWindow* window, int width, int height);
   void Compose(vtkOpenGLRenderWindow* window, const std::array<int, 4>& rectangle);
   void SetParameters(vtkShaderProgram* program, const std::array<int, 4>& rectangle);
+  void LoadField(vtkOpenGLRenderWindow* window);
+  void SetHaloParameters(vtkShaderProgram* program);
 
   Settings Current;
   vtkSmartPointer<vtkRenderPass> Props;
@@ -71,5 +74,7 @@ private:
   vtkSmartPointer<vtkOpenGLFramebufferObject> Framebuffer;
   vtkSmartPointer<vtkTextureObject> Colors;
   vtkSmartPointer<vtkTextureObject> Depths;
+  std::array<vtkSmartPointer<vtkTextureObject>, 3> Field;         ///< constant, linear, quadratic part of the halo's field
+  std::shared_ptr<const handeye::HandEyeErrorField> LoadedField;  ///< that is in them
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;
 };

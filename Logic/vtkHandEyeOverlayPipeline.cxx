@@ -70,16 +70,13 @@ void vtkHandEyeOverlayPipeline::SetVideoFrame(const cv::Mat& bgr)
     this->SetVideoImage(nullptr);
     return;
   }
-  // Colours keep their order: the graphics card exchanges them.
-  const bool isBgr = handeye::copyFlipped(bgr, this->Internal->Frame);
+  handeye::copyFlipped(bgr, this->Internal->Frame);
   this->SetVideoImage(this->Internal->Frame);
-  this->Internal->State.VideoIsBgr = isBgr;
 }
 
 void vtkHandEyeOverlayPipeline::SetVideoImage(vtkImageData* image)
 {
   this->Internal->State.Video = image;
-  this->Internal->State.VideoIsBgr = false;
   this->Modified();
 }
 
@@ -192,6 +189,11 @@ void vtkHandEyeOverlayPipeline::AttachTo(vtkRenderWindow* window)
 vtkRenderer* vtkHandEyeOverlayPipeline::GetModelRenderer()
 {
   return this->Internal->WindowScene->GetModelRenderer();
+}
+
+bool vtkHandEyeOverlayPipeline::ReadShown(cv::Mat& bgr)
+{
+  return handeye::readShown(this->Internal->WindowScene, this->Internal->State.ImageSize, this->Internal->Pixels, bgr);
 }
 
 void vtkHandEyeOverlayPipeline::RenderToImage(cv::Mat& bgr)

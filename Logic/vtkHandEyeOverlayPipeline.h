@@ -141,6 +141,12 @@ public:
   /// @throws std::runtime_error with GetProblem()'s sentence if a visible model cannot be drawn, or if no size is known
   void RenderToImage(cv::Mat& bgr);
 
+  /// Reads the picture that the attached window shows since its last rendering, without the bars beside it, brought to the
+  /// video's own size: a pixel of the picture is a pixel of the video, whatever the window's size.
+  /// @param bgr receives the picture, 8 bits, top row first
+  /// @return false if nothing was rendered yet
+  bool ReadShown(cv::Mat& bgr);
+
 protected:
   vtkHandEyeOverlayPipeline();
   ~vtkHandEyeOverlayPipeline() override;

@@ -14,6 +14,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -46,6 +47,7 @@ public:
   std::optional<Eigen::Matrix2d> ErrorCovariancePx() const;
 
   bool LensIsNew = true;
+  bool ErrorIsNew = true;  ///< covariance, lens or way with the lens
 
 private:
   void UpdateLens();
@@ -53,9 +55,12 @@ private:
   void UpdateStylus();
   void UpdateError();
 
+  /// The lens of the picture as it is shown: none where it is straightened.
+  handeye::CameraModel ShownCamera() const;
   double PreparedDistanceMm() const;
 
   vtkMTimeType MeshTime = 0;
+  bool ErrorIsStraight = false;                   ///< the error's field is that of a straightened picture
   handeye::OverlayMesh BaseMesh;                  ///< not divided
   std::map<double, handeye::OverlayMesh> Meshes;  ///< divided, by the longest edge that was asked for
 };
@@ -63,13 +68,16 @@ private:
 namespace handeye
 {
 
-/// Copies a picture (8 bits; grey, BGR or BGRA; top row first) into an image with the bottom row first. The colours' order is kept
-/// where it is BGR; others become RGB.
-/// @return whether it is BGR
+/// Copies a picture (8 bits; grey, BGR or BGRA; top row first) into an image with the bottom row first. Colours become RGBA: four
+/// bytes a pixel go to the graphics card as they are, three are divided up by its driver, which costs more than all else here.
 /// @throws std::invalid_argument for another type of picture
-bool copyFlipped(const cv::Mat& bgr, vtkImageData* image);
+void copyFlipped(const cv::Mat& bgr, vtkImageData* image);
 
-/// Reads a window's picture, top row first, BGR.
-void readPixels(vtkRenderWindow* window, vtkUnsignedCharArray* pixels, int width, int height, cv::Mat& bgr);
+/// Reads a part of a window's picture (x, y from the lower left corner, width, height; device px), top row first, BGR.
+void readPixels(vtkRenderWindow* window, vtkUnsignedCharArray* pixels, const std::array<int, 4>& rectangle, cv::Mat& bgr);
+
+/// Reads what a scene's window shows of it, in this size (px); in the window's where it is 0.
+/// @return false if nothing was rendered yet
+bool readShown(vtkHandEyeOverlayScene* scene, const std::array<int, 2>& size, vtkUnsignedCharArray* pixels, cv::Mat& bgr);
 
 }  // namespace handeye

@@ -65,8 +65,12 @@ void vtkHandEyeOverlayPipeline::SetCalibrationCovariance(const std::optional<Eig
   {
     throw std::invalid_argument("the covariance of the calibration holds numbers that are not finite");
   }
-  this->Internal->Covariance = covariance;
-  this->Modified();
+  if (this->Internal->Covariance != covariance)
+  {
+    this->Internal->Covariance = covariance;
+    this->Internal->ErrorIsNew = true;
+    this->Modified();
+  }
 }
 
 std::optional<double> vtkHandEyeOverlayPipeline::GetPredictedErrorPx()

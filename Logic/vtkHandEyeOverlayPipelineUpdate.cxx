@@ -22,7 +22,6 @@ namespace
 
 constexpr double EdgeTolerancePx = 0.05;
 constexpr double DistanceHysteresis = 0.3;  // in doublings of the distance
-constexpr double Quantile95 = 2.4477;       // of the length of a vector with two standard normal entries
 
 std::string sizeText(int width, int height)
 {
@@ -61,6 +60,7 @@ const vtkHandEyeOverlayState& vtkHandEyeOverlayPipeline::Internals::Update()
 void vtkHandEyeOverlayPipeline::Internals::UpdateLens()
 {
   this->LensIsNew = false;
+  this->ErrorIsNew = true;
   this->State.Camera.reset();
   this->State.UndistortedMesh = nullptr;
   this->Problem.clear();
@@ -117,6 +117,7 @@ void vtkHandEyeOverlayPipeline::Internals::UpdateMesh()
     this->Meshes.clear();
     this->MeshDistanceMm = 0;
     this->BaseMesh = handeye::prepareOverlayMesh(this->Model, std::numeric_limits<double>::infinity());
+    this->State.MeshIsClosed = handeye::isClosedSurface(this->BaseMesh.mesh);
     this->MeshTime = modelTime;
   }
   this->MeshDistanceMm = this->PreparedDistanceMm();
@@ -148,7 +149,7 @@ void vtkHandEyeOverlayPipeline::Internals::Render(int width, int height, cv::Mat
   }
   this->ImageWindow->SetSize(width, height);
   this->ImageWindow->Render();
-  handeye::readPixels(this->ImageWindow, this->Pixels, width, height, bgr);
+  handeye::readPixels(this->ImageWindow, this->Pixels, { 0, 0, width, height }, bgr);
 }
 
 void vtkHandEyeOverlayPipeline::Internals::UpdateStylus()
@@ -161,6 +162,13 @@ void vtkHandEyeOverlayPipeline::Internals::UpdateStylus()
   }
 }
 
+handeye::CameraModel vtkHandEyeOverlayPipeline::Internals::ShownCamera() const
+{
+  const handeye::CameraModel& camera = *this->State.Camera;
+  const bool straight = this->State.Look.undistorted;
+  return straight ? handeye::CameraModel(camera.width(), camera.height(), camera.cameraMatrix(), {}) : camera;
+}
+
 std::optional<Eigen::Matrix2d> vtkHandEyeOverlayPipeline::Internals::ErrorCovariancePx() const
 {
   if (!this->Covariance || !this->State.Camera || !this->State.Mesh || this->State.Mesh->GetNumberOfPoints() == 0)
@@ -171,68 +179,91 @@ std::optional<Eigen::Matrix2d> vtkHandEyeOverlayPipeline::Internals::ErrorCovari
   this->State.Mesh->GetCenter(middle);
   const Eigen::Vector4d middle_Model(middle[0], middle[1], middle[2], 1);
   const Eigen::Vector3d middle_Camera = (handeye::toEigen(this->State.ModelToCamera) * middle_Model).head<3>();
-  Eigen::Matrix<double, 2, 3> jacobian;
-  if (!this->State.Camera->project(middle_Camera, &jacobian).isUsable())
+  const auto jacobian = handeye::pixelJacobian({ this->ShownCamera() }, middle_Camera);
+  if (!jacobian || !this->State.Camera->project(middle_Camera).isUsable())
   {
     return std::nullopt;
   }
-  if (this->State.Look.undistorted)
-  {
-    const handeye::CameraModel& lens = *this->State.Camera;
-    const double z = middle_Camera.z();
-    const Eigen::Vector2d slope = middle_Camera.head<2>() / (z * z);
-    jacobian << lens.fx() / z, 0, -lens.fx() * slope.x(), 0, lens.fy() / z, -lens.fy() * slope.y();
-  }
-  const Eigen::Matrix3d covariance_Mm2 = handeye::predictTargetCovariance(*this->Covariance, middle_Camera);
-  return jacobian * covariance_Mm2 * jacobian.transpose();
+  return *jacobian * *this->Covariance * jacobian->transpose();
 }
 
 void vtkHandEyeOverlayPipeline::Internals::UpdateError()
 {
-  this->State.ErrorEllipse_Px.reset();
-  const std::optional<Eigen::Matrix2d> covariance = this->ErrorCovariancePx();
-  if (!covariance)
+  this->State.ErrorAxes_Px.reset();
+  if (!this->Covariance || !this->State.Camera)
   {
+    this->State.ErrorField.reset();
     return;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(*covariance);
-  std::array<std::array<double, 2>, 2> ellipse;
-  for (int i = 0; i < 2; ++i)
+  if (!this->State.Look.errorHalo)
   {
-    // The longer one first.
-    const double length = Quantile95 * std::sqrt(std::max(0.0, axes.eigenvalues()[1 - i]));
-    const Eigen::Vector2d axis = length * axes.eigenvectors().col(1 - i);
-    ellipse[std::size_t(i)] = { axis.x(), axis.y() };
+    return;  // made when it is looked at
   }
-  this->State.ErrorEllipse_Px = ellipse;
+  const bool straight = this->State.Look.undistorted;
+  if (!this->State.ErrorField || this->ErrorIsNew || this->ErrorIsStraight != straight)
+  {
+    this->State.ErrorField = std::make_shared<handeye::HandEyeErrorField>(this->ShownCamera(), *this->Covariance);
+    this->ErrorIsNew = false;
+    this->ErrorIsStraight = straight;
+  }
+  if (const std::optional<Eigen::Matrix2d> covariance = this->ErrorCovariancePx())
+  {
+    const Eigen::Vector2d variances = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(*covariance).eigenvalues();
+    const auto length = [](double variance) { return handeye::ErrorQuantile95 * std::sqrt(std::max(0.0, variance)); };
+    this->State.ErrorAxes_Px = { length(variances[1]), length(variances[0]) };
+  }
 }
 
-bool handeye::copyFlipped(const cv::Mat& bgr, vtkImageData* image)
+void handeye::copyFlipped(const cv::Mat& bgr, vtkImageData* image)
 {
   if (bgr.type() != CV_8UC3)
   {
     handeye::toVtk(bgr, image);
-    return false;
+    return;
   }
   const int* size = image->GetDimensions();
   if (size[0] != bgr.cols || size[1] != bgr.rows || image->GetScalarType() != VTK_UNSIGNED_CHAR ||
-    image->GetNumberOfScalarComponents() != 3 || !image->GetScalarPointer())
+    image->GetNumberOfScalarComponents() != 4 || !image->GetScalarPointer())
   {
     image->SetExtent(0, bgr.cols - 1, 0, bgr.rows - 1, 0, 0);
-    image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
   }
-  cv::Mat target(bgr.rows, bgr.cols, CV_8UC3, image->GetScalarPointer());
-  cv::flip(bgr, target, 0);
+  cv::Mat target(bgr.rows, bgr.cols, CV_8UC4, image->GetScalarPointer());
+  for (int row = 0; row < bgr.rows; ++row)
+  {
+    cv::Mat flipped = target.row(bgr.rows - 1 - row);
+    cv::cvtColor(bgr.row(row), flipped, cv::COLOR_BGR2RGBA);
+  }
   image->GetPointData()->GetScalars()->Modified();
   image->Modified();
-  return true;
 }
 
-void handeye::readPixels(vtkRenderWindow* window, vtkUnsignedCharArray* pixels, int width, int height, cv::Mat& bgr)
+void handeye::readPixels(vtkRenderWindow* window, vtkUnsignedCharArray* pixels, const std::array<int, 4>& rectangle, cv::Mat& bgr)
 {
-  window->GetPixelData(0, 0, width - 1, height - 1, 0, pixels);
+  const auto& [x, y, width, height] = rectangle;
+  window->GetPixelData(x, y, x + width - 1, y + height - 1, 0, pixels);
   const cv::Mat rgb(height, width, CV_8UC3, pixels->GetPointer(0));
   cv::Mat upright;
   cv::flip(rgb, upright, 0);
   cv::cvtColor(upright, bgr, cv::COLOR_RGB2BGR);
+}
+
+bool handeye::readShown(vtkHandEyeOverlayScene* scene, const std::array<int, 2>& size, vtkUnsignedCharArray* pixels, cv::Mat& bgr)
+{
+  const std::array<int, 4>& rectangle = scene->GetPictureRectangle();
+  if (!scene->GetRenderWindow() || rectangle[2] < 1 || rectangle[3] < 1)
+  {
+    return false;
+  }
+  cv::Mat shown;
+  readPixels(scene->GetRenderWindow(), pixels, rectangle, shown);
+  const bool larger = shown.cols > size[0] || shown.rows > size[1];
+  if (size[0] < 1 || size[1] < 1 || (shown.cols == size[0] && shown.rows == size[1]))
+  {
+    bgr = shown;
+    return true;
+  }
+  bgr = cv::Mat();  // whoever was given the last picture keeps it
+  cv::resize(shown, bgr, cv::Size(size[0], size[1]), 0, 0, larger ? cv::INTER_AREA : cv::INTER_LINEAR);
+  return true;
 }

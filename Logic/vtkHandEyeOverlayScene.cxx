@@ -236,7 +236,6 @@ void vtkHandEyeOverlayScene::SynchronizeVideo(const vtkHandEyeOverlayState& stat
     return;
   }
   this->VideoMapper->SetInputData(undistorted ? state.UndistortedMesh : state.RawMesh);
-  this->VideoMapper->SetBgr(state.VideoIsBgr);
   this->VideoMapper->SetEye(this->Channel());
   this->VideoTexture->SetInputData(state.Video);
   // Nearest neighbours where a pixel of the video is a whole number of pixels here: the video then stays as it is, to the last bit.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "CameraModel.h"
+#include "HandEyeErrorField.h"
 #include "LensAppearance.h"
 #include "LensWarp.h"
 #include "OverlayLook.h"
@@ -14,6 +15,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -32,14 +34,14 @@ class vtkTexture;
 /// What an overlay shows, the same in every window that shows it.
 struct vtkHandEyeOverlayState
 {
-  std::optional<handeye::CameraModel> Camera;  ///< with an image size; empty if no model can be drawn
-  handeye::LensWarp Lens;                      ///< of the camera
-  std::array<int, 2> ImageSize{ 0, 0 };        ///< px; 0 if neither a frame nor a camera is known
-  vtkSmartPointer<vtkImageData> Video;         ///< null: nothing but the model
-  bool VideoIsBgr = false;
+  std::optional<handeye::CameraModel> Camera;    ///< with an image size; empty if no model can be drawn
+  handeye::LensWarp Lens;                        ///< of the camera
+  std::array<int, 2> ImageSize{ 0, 0 };          ///< px; 0 if neither a frame nor a camera is known
+  vtkSmartPointer<vtkImageData> Video;           ///< null: nothing but the model
   vtkSmartPointer<vtkPolyData> RawMesh;          ///< makeRawVideoMesh()
   vtkSmartPointer<vtkPolyData> UndistortedMesh;  ///< makeUndistortedVideoMesh(); null until needed
   vtkSmartPointer<vtkPolyData> Mesh;             ///< null: nothing but the video
+  bool MeshIsClosed = false;                     ///< its inside cannot be seen from outside
   vtkNew<vtkMatrix4x4> ModelToCamera;
   std::array<double, 3> Color{};
   double Opacity = 1;
@@ -48,9 +50,11 @@ struct vtkHandEyeOverlayState
   bool MaskMode = false;
   handeye::OverlayLook Look;
   vtkSmartPointer<vtkPolyData> StylusBody, StylusRay, StylusTip;
-  vtkSmartPointer<vtkMatrix4x4> StylusTipToCamera;                      ///< null: the stylus is not known
-  std::optional<std::array<std::array<double, 2>, 2>> ErrorEllipse_Px;  ///< half axes at the model, px of the picture, y down
-  std::string Notice;                                                   ///< written into the picture; may be empty
+  vtkSmartPointer<vtkMatrix4x4> StylusTipToCamera;  ///< null: the stylus is not known
+  /// What the calibration predicts for each place of the picture as it is shown; null: not known.
+  std::shared_ptr<const handeye::HandEyeErrorField> ErrorField;
+  std::optional<std::array<double, 2>> ErrorAxes_Px;  ///< half axes of 95 % of the error in the model's middle, if that is in view
+  std::string Notice;                                 ///< written into the picture; may be empty
 };
 
 /// Private to vtkHandEyeOverlayPipeline: the renderers and props that show a vtkHandEyeOverlayState in one window.
@@ -121,6 +125,7 @@ private:
   handeye::EyeChannel Channel() const;
   bool IsModelSeen(const vtkHandEyeOverlayState& state) const;
   bool NeedsOutlinePass(const vtkHandEyeOverlayState& state) const;
+  double HaloReach(const vtkHandEyeOverlayState& state) const;
   std::array<double, 4> ModelRectangle(const vtkHandEyeOverlayState& state, double marginPx) const;
 
   std::function<const vtkHandEyeOverlayState&()> StateSource;

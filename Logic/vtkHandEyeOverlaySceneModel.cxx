@@ -6,7 +6,7 @@
 #include "vtkHandEyeOutlinePass.h"
 #include "vtkHandEyeOverlayScene.h"
 
-#include <Eigen/Core>
+#include <Eigen/Dense>
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkImageData.h>
@@ -78,6 +78,29 @@ bool reachesLimit(vtkPolyData* mesh, vtkMatrix4x4* meshToCamera, double limitRad
     (corners.topRows<2>().colwise().norm().array() > 0.999 * limitRadius * corners.row(2).array()).any();
 }
 
+/// Whether the camera is outside of a mesh' bounding box, by more than the near plane, and the mesh is not mirrored.
+bool isSeenFromOutside(vtkPolyData* mesh, vtkMatrix4x4* meshToCamera)
+{
+  const Eigen::Matrix4d matrix = matrixOf(meshToCamera);
+  const Eigen::Matrix3d linear = matrix.topLeftCorner<3, 3>();
+  if (!(linear.determinant() > 0))
+  {
+    return false;
+  }
+  const Eigen::Vector3d camera_Mesh = -linear.inverse() * matrix.topRightCorner<3, 1>();
+  const double margin = 2 * NearestMm / std::cbrt(linear.determinant());
+  double bounds[6];
+  mesh->GetBounds(bounds);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (camera_Mesh[axis] < bounds[2 * axis] - margin || camera_Mesh[axis] > bounds[2 * axis + 1] + margin)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 std::string text(const char* pattern, double a, double b = 0)
 {
   char line[128];
@@ -89,7 +112,7 @@ std::string text(const char* pattern, double a, double b = 0)
 
 bool vtkHandEyeOverlayScene::NeedsOutlinePass(const vtkHandEyeOverlayState& state) const
 {
-  const bool halo = state.Look.errorHalo && state.ErrorEllipse_Px;
+  const bool halo = state.Look.errorHalo && state.ErrorField;
   return (state.Look.outline || halo) && this->IsModelSeen(state) && !state.MaskMode;
 }
 
@@ -100,7 +123,7 @@ bool vtkHandEyeOverlayScene::IsModelSeen(const vtkHandEyeOverlayState& state) co
     return false;
   }
   const bool surface = (state.Look.surface || state.Look.wireframe) && state.Opacity > 0;
-  const bool halo = state.Look.errorHalo && state.ErrorEllipse_Px;
+  const bool halo = state.Look.errorHalo && state.ErrorField;
   return state.MaskMode || (state.Fade > 0 && (surface || state.Look.outline || halo));
 }
 
@@ -147,6 +170,10 @@ void vtkHandEyeOverlayScene::SynchronizeProperty(const vtkHandEyeOverlayState& s
   }
   const bool wireframe = state.Look.wireframe && !state.MaskMode;
   property->SetRepresentation(wireframe ? VTK_WIREFRAME : VTK_SURFACE);
+  // Half of a closed mesh cannot be seen: it is not drawn. Where something is cut off, or the camera is inside, it can.
+  const bool whole = state.MeshIsClosed && state.Mesh && !wireframe && !state.Look.clipping;
+  property->SetBackfaceCulling(whole && isSeenFromOutside(state.Mesh, state.ModelToCamera) &&
+    !reachesLimit(state.Mesh, state.ModelToCamera, state.Lens.limitRadius));
 }
 
 handeye::LensAppearance vtkHandEyeOverlayScene::Appearance(const vtkHandEyeOverlayState& state) const
@@ -159,7 +186,6 @@ handeye::LensAppearance vtkHandEyeOverlayScene::Appearance(const vtkHandEyeOverl
   // The pass that draws into the window divides the eyes.
   appearance.eye = textured ? handeye::EyeChannel() : this->Channel();
   appearance.videoSize = { std::max(1, state.ImageSize[0]), std::max(1, state.ImageSize[1]) };
-  appearance.videoIsBgr = state.VideoIsBgr;
   if (state.Camera && state.Look.undistorted)
   {
     appearance.undistortedVideo = true;
@@ -257,6 +283,23 @@ void vtkHandEyeOverlayScene::SynchronizeStylus(const vtkHandEyeOverlayState& sta
   }
 }
 
+/// How far (px of the picture) the halo reaches beyond the model, at most: no further than by the error of the worst corner of
+/// its box.
+double vtkHandEyeOverlayScene::HaloReach(const vtkHandEyeOverlayState& state) const
+{
+  const Eigen::Matrix<double, 3, 8> corners = cornersInCamera(state.Mesh, state.ModelToCamera);
+  double variance = 0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const double depthMm = std::max(corners(2, corner), NearestMm);
+    const Eigen::Vector2d plain = corners.col(corner).head<2>() / depthMm;
+    const Eigen::Vector2d place(
+      plain.x() * state.Camera->fx() + state.Camera->cx(), plain.y() * state.Camera->fy() + state.Camera->cy());
+    variance = std::max(variance, state.ErrorField->covariancePx(place, depthMm).trace());
+  }
+  return 1.2 * handeye::ErrorQuantile95 * std::sqrt(variance);
+}
+
 std::array<double, 4> vtkHandEyeOverlayScene::ModelRectangle(const vtkHandEyeOverlayState& state, double marginPx) const
 {
   const double width = this->PictureRectangle[2], height = this->PictureRectangle[3];
@@ -299,15 +342,17 @@ void vtkHandEyeOverlayScene::SynchronizeOutline(const vtkHandEyeOverlayState& st
   settings.lineWidthPx = std::max(1.5, state.Look.outlineWidthPx * scaleY);
   settings.lineColor = state.Look.outlineColor;
   settings.depthStepMm = std::max(1e-3, DepthStepShare * diagonal.norm());
-  settings.halo = state.Look.errorHalo && state.ErrorEllipse_Px;
   double marginPx = settings.lineWidthPx + 2;
-  if (settings.halo)
+  if (state.Look.errorHalo && state.ErrorField)
   {
-    const auto& [first, second] = *state.ErrorEllipse_Px;
-    settings.haloAxis1Px = { first[0] * scaleX, -first[1] * scaleY };
-    settings.haloAxis2Px = { second[0] * scaleX, -second[1] * scaleY };
-    marginPx +=
-      std::hypot(settings.haloAxis1Px[0], settings.haloAxis1Px[1]) + std::hypot(settings.haloAxis2Px[0], settings.haloAxis2Px[1]);
+    settings.haloField = state.ErrorField;
+    settings.haloScale = { scaleX, scaleY };
+    settings.modelDepthRangeMm = this->ModelDepthRangeMm;
+    for (double& depthMm : settings.modelDepthRangeMm)
+    {
+      depthMm = std::max(depthMm, NearestMm);
+    }
+    marginPx += std::max(scaleX, scaleY) * this->HaloReach(state);
   }
   settings.haloColor = state.Look.haloColor;
   settings.modelRectanglePx = this->ModelRectangle(state, marginPx);
@@ -327,11 +372,10 @@ void vtkHandEyeOverlayScene::SynchronizeTexts(const vtkHandEyeOverlayState& stat
   if (state.Look.errorHalo && state.ModelVisible)
   {
     const std::string unknown = "predicted error: not known";
-    const auto length = [](const std::array<double, 2>& axis) { return std::hypot(axis[0], axis[1]); };
-    legend += (legend.empty() ? "" : "\n") +
-      (state.ErrorEllipse_Px ? text("halo: 95 %% of the predicted error, %.1f x %.1f px", length((*state.ErrorEllipse_Px)[0]),
-                                 length((*state.ErrorEllipse_Px)[1]))
-                             : unknown);
+    const std::string known = state.ErrorAxes_Px
+      ? text("halo: 95 %% of the predicted error, %.1f x %.1f px in the middle", (*state.ErrorAxes_Px)[0], (*state.ErrorAxes_Px)[1])
+      : std::string("halo: 95 % of the predicted error");
+    legend += (legend.empty() ? "" : "\n") + (state.ErrorField ? known : unknown);
   }
   const int size = std::max(8, int(std::lround(this->PictureRectangle[3] / 28.0)));
   const auto write = [&](vtkTextActor* actor, const std::string& words)

@@ -200,6 +200,36 @@ void vtkHandEyeStereoOverlay::AttachTo(vtkRenderWindow* window)
   this->Modified();
 }
 
+bool vtkHandEyeStereoOverlay::ReadShown(cv::Mat& bgr)
+{
+  const auto read = [this](bool right, cv::Mat& picture)
+  {
+    vtkHandEyeOverlayPipeline* eye = right ? this->Internal->Right : this->Internal->Left;
+    vtkHandEyeOverlayScene* scene = right ? this->Internal->WindowScenes.Right : this->Internal->WindowScenes.Left;
+    // Rows that are averaged would belong to both eyes.
+    const bool asItIs = this->Internal->Arrangement == Layout::Interlaced;
+    const std::array<int, 2> size = asItIs ? std::array<int, 2>{ 0, 0 } : eye->Internal->State.ImageSize;
+    return handeye::readShown(scene, size, this->Internal->Pixels, picture);
+  };
+  const Layout layout = this->Internal->Arrangement;
+  cv::Mat first, second;
+  if (layout == Layout::Interlaced || layout == Layout::Anaglyph)
+  {
+    return read(false, bgr);
+  }
+  if (!read(this->Internal->Swapped, first) || !read(!this->Internal->Swapped, second))
+  {
+    return false;
+  }
+  bgr = cv::Mat();
+  if (second.size() != first.size())
+  {
+    cv::resize(second, second, first.size(), 0, 0, cv::INTER_AREA);
+  }
+  layout == Layout::SideBySide ? cv::hconcat(first, second, bgr) : cv::vconcat(first, second, bgr);
+  return true;
+}
+
 void vtkHandEyeStereoOverlay::RenderToImage(cv::Mat& bgr)
 {
   const std::string problem = this->GetProblem();
@@ -231,6 +261,6 @@ void vtkHandEyeStereoOverlay::RenderToImage(cv::Mat& bgr)
   this->Internal->ImageWindow->SetSize(scale * width, scale * height);
   this->Internal->ImageWindow->Render();
   cv::Mat large;
-  handeye::readPixels(this->Internal->ImageWindow, this->Internal->Pixels, scale * width, scale * height, large);
+  handeye::readPixels(this->Internal->ImageWindow, this->Internal->Pixels, { 0, 0, scale * width, scale * height }, large);
   cv::resize(large, bgr, cv::Size(width, height), 0, 0, cv::INTER_AREA);
 }

@@ -67,6 +67,12 @@ public:
   /// @throws std::runtime_error with a sentence if a visible model cannot be drawn, or if no size is known
   void RenderToImage(cv::Mat& bgr);
 
+  /// Reads what the window shows since its last rendering, without bars: side by side and top-bottom as both eyes' pictures in
+  /// their videos' own size next to each other, as an anaglyph in the left video's size; interlaced as it is in the window.
+  /// @param bgr receives the picture, 8 bits, top row first
+  /// @return false if nothing was rendered yet
+  bool ReadShown(cv::Mat& bgr);
+
 protected:
   vtkHandEyeStereoOverlay();
   ~vtkHandEyeStereoOverlay() override;

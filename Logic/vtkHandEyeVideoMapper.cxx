@@ -19,14 +19,13 @@ namespace
 {
 
 constexpr const char* Declaration = R"glsl(
-uniform float lensVideoSwap;
 uniform float lensRowOffset;
 //VTK::TCoord::Dec
 )glsl";
 
 constexpr const char* Implementation = R"glsl(
   //VTK::TCoord::Impl
-  vec3 videoColor = lensVideoSwap > 0.5 ? gl_FragData[0].bgr : gl_FragData[0].rgb;
+  vec3 videoColor = gl_FragData[0].rgb;
   vec2 videoBeyond = abs(tcoordVCVSOutput.xy - 0.5);
   videoColor *= max(videoBeyond.x, videoBeyond.y) > 0.5 ? 0.0 : 1.0;
 )glsl";
@@ -77,6 +76,5 @@ void vtkHandEyeVideoMapper::ReplaceShaderTCoord(ShaderMap shaders, vtkRenderer* 
 void vtkHandEyeVideoMapper::SetCameraShaderParameters(vtkOpenGLHelper& cellBO, vtkRenderer* renderer, vtkActor* actor)
 {
   this->Superclass::SetCameraShaderParameters(cellBO, renderer, actor);
-  cellBO.Program->SetUniformf("lensVideoSwap", this->Bgr ? 1.0f : 0.0f);
   cellBO.Program->SetUniformf("lensRowOffset", float(this->Eye.rowOffset));
 }

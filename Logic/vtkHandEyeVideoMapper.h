@@ -6,15 +6,14 @@
 
 #include <vtkOpenGLPolyDataMapper.h>
 
-/// Private to the overlay: draws a textured mesh as a frame of video. Blue and red may be exchanged in the texture, nothing is
-/// repeated beyond its border (black there), and the picture may be for one of two eyes that share the window's pixels.
+/// Private to the overlay: draws a textured mesh as a frame of video. Nothing is repeated beyond its border (black there), and
+/// the picture may be for one of two eyes that share the window's pixels.
 class vtkHandEyeVideoMapper : public vtkOpenGLPolyDataMapper
 {
 public:
   static vtkHandEyeVideoMapper* New();
   vtkTypeMacro(vtkHandEyeVideoMapper, vtkOpenGLPolyDataMapper)
 
-  void SetBgr(bool bgr) { this->Bgr = bgr; }
   void SetEye(const handeye::EyeChannel& eye);
 
   void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override;
@@ -31,6 +30,5 @@ private:
   vtkHandEyeVideoMapper(const vtkHandEyeVideoMapper&) = delete;
   void operator=(const vtkHandEyeVideoMapper&) = delete;
 
-  bool Bgr = false;
   handeye::EyeChannel Eye;
 };

@@ -38,12 +38,20 @@ void Acquisition::disconnect()
   const std::lock_guard lock(mutex_);
   onSample_ = nullptr;
   onFrame_ = nullptr;
+  onRightFrame_ = nullptr;
 }
 
 void Acquisition::setPairing(const devices::FramePairingOptions& pairing)
 {
   const std::lock_guard lock(mutex_);
   pairing_ = std::make_unique<devices::FramePairing>(pairing);
+}
+
+void Acquisition::setRightPairing(const devices::FramePairingOptions& pairing, FrameHandler onRightFrame)
+{
+  const std::lock_guard lock(mutex_);
+  rightPairing_ = pairing.imageName.empty() ? nullptr : std::make_unique<devices::FramePairing>(pairing);
+  onRightFrame_ = std::move(onRightFrame);
 }
 
 std::vector<Acquisition::NamedStatus> Acquisition::status() const
@@ -91,6 +99,14 @@ void Acquisition::handle(devices::DeviceSample sample)
     return;
   }
   onSample_(sample);
+  if (rightPairing_ && onRightFrame_)
+  {
+    rightPairing_->add(sample);
+    while (std::optional<devices::PairedFrame> frame = rightPairing_->take())
+    {
+      onRightFrame_(*frame);
+    }
+  }
   pairing_->add(std::move(sample));
   while (std::optional<devices::PairedFrame> frame = pairing_->take())
   {

@@ -16,8 +16,9 @@
 namespace handeye
 {
 
-/// Sources that are running, and the thread that takes what they deliver: every sample goes to `onSample`, and every frame with the
-/// poses of its moment (see devices::FramePairing) to `onFrame`, both in that thread.
+/// Sources that are running, and the thread that takes what they deliver: every sample goes to `onSample`, and every frame with
+/// the poses of its moment (see devices::FramePairing) to `onFrame`, both in that thread. A second video, that of a stereo rig's
+/// right eye, is paired with the same poses and goes to `onRightFrame`.
 ///
 /// Of several sources the times are brought to this computer's clock.
 class Acquisition
@@ -38,6 +39,8 @@ public:
 
   /// The pairing begins anew with other names or another latency.
   void setPairing(const devices::FramePairingOptions& pairing);
+  /// The right eye's video, by the name of its images; an empty name: there is none.
+  void setRightPairing(const devices::FramePairingOptions& pairing, FrameHandler onRightFrame);
 
   struct NamedStatus
   {
@@ -53,9 +56,9 @@ private:
   std::vector<std::shared_ptr<devices::Source>> sources_;
   std::vector<devices::ClockOffset> offsets_;
   std::mutex mutex_;  ///< of the handlers and the pairing
-  std::unique_ptr<devices::FramePairing> pairing_;
+  std::unique_ptr<devices::FramePairing> pairing_, rightPairing_;
   SampleHandler onSample_;
-  FrameHandler onFrame_;
+  FrameHandler onFrame_, onRightFrame_;
   std::atomic<bool> isEnding_{ false };
   std::thread thread_;
 };

@@ -76,6 +76,7 @@ void DeviceHub::clearHandlers()
   }
   onSample_ = nullptr;
   onFrame_ = nullptr;
+  onRightFrame_ = nullptr;
 }
 
 /// Ends a part beside the window: a camera may take seconds to let go.
@@ -92,6 +93,15 @@ devices::FramePairingOptions DeviceHub::pairingOptions() const
   devices::FramePairingOptions options;
   options.imageName = setup_.image.toStdString();
   options.latencySec = setup_.latencySec;
+  return options;
+}
+
+/// One eye's video is not both eyes', and without a name the left one might be either.
+devices::FramePairingOptions DeviceHub::rightPairingOptions() const
+{
+  devices::FramePairingOptions options = pairingOptions();
+  const bool isAnother = !setup_.image.isEmpty() && setup_.rightImage != setup_.image;
+  options.imageName = isAnother ? setup_.rightImage.toStdString() : std::string();
   return options;
 }
 
@@ -171,6 +181,7 @@ bool DeviceHub::connectDevices(const DeviceSetup& setup)
   acquisition_ = std::make_shared<Acquisition>(
     std::move(sources), pairingOptions(), onSample_ ? onSample_ : [](const devices::DeviceSample&) {},
     onFrame_ ? onFrame_ : [](const devices::PairedFrame&) {});
+  acquisition_->setRightPairing(rightPairingOptions(), onRightFrame_);
   pollTimer_.start();
   emit connectionChanged();
   poll();
@@ -198,12 +209,15 @@ void DeviceHub::setNames(const DeviceSetup& setup)
   setup_.stylusToTracker = setup.stylusToTracker;
   setup_.markerToTracker = setup.markerToTracker;
   setup_.phantomToTracker = setup.phantomToTracker;
-  const bool isPairingOther = setup_.image != setup.image || setup_.latencySec != setup.latencySec;
+  const bool isPairingOther =
+    setup_.image != setup.image || setup_.rightImage != setup.rightImage || setup_.latencySec != setup.latencySec;
   setup_.image = setup.image;
+  setup_.rightImage = setup.rightImage;
   setup_.latencySec = setup.latencySec;
   if (acquisition_ && isPairingOther)
   {
     acquisition_->setPairing(pairingOptions());
+    acquisition_->setRightPairing(rightPairingOptions(), onRightFrame_);
   }
   emit streamsChanged();
 }

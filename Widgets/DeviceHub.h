@@ -18,6 +18,7 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace handeye
@@ -48,6 +49,7 @@ struct DeviceSetup
   QString markerToTracker = QStringLiteral("MarkerToTracker");
   QString phantomToTracker = QStringLiteral("PhantomToTracker");
   QString image;          ///< empty: the first that comes
+  QString rightImage;     ///< the video of a stereo rig's right eye; empty: there is none. Takes effect with a named `image` only
   double latencySec = 0;  ///< see devices::FramePairingOptions
 };
 
@@ -70,6 +72,8 @@ public:
 
   /// Who takes samples and frames, in the thread of the sources; to be set before connectDevices(), and good until clearHandlers().
   void setHandlers(SampleHandler onSample, FrameHandler onFrame);
+  /// The same for the frames of a stereo rig's right eye.
+  void setRightFrameHandler(FrameHandler onRightFrame) { onRightFrame_ = std::move(onRightFrame); }
   void clearHandlers();
 
   /// The room that kind SimulatedRoom has; the default one until set.
@@ -111,12 +115,13 @@ private:
   void poll();
   void release(std::shared_ptr<void> part);
   devices::FramePairingOptions pairingOptions() const;
+  devices::FramePairingOptions rightPairingOptions() const;
   std::vector<std::shared_ptr<devices::Source>> makeSources();
 
   DeviceSetup setup_;
   simulation::RoomOptions roomOptions_;
   SampleHandler onSample_;
-  FrameHandler onFrame_;
+  FrameHandler onFrame_, onRightFrame_;
   std::shared_ptr<SimulatedRoomServer> room_;
   std::shared_ptr<Acquisition> acquisition_;
   std::vector<std::thread> releasing_;

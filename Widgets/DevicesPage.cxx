@@ -76,6 +76,11 @@ void DevicesPage::choose(StreamList::Role role, const QString& name)
     case StreamList::Role::Video:
       setup.image = name;
       break;
+    case StreamList::Role::RightVideo:
+      // Which of two videos the left one is, is said from now on.
+      setup.image = workbench_.devices().imageName();
+      setup.rightImage = name;
+      break;
   }
   workbench_.setStreamNames(setup);
 }
@@ -142,6 +147,7 @@ void DevicesPage::refresh()
   ui_->streamList->setChoice(StreamList::Role::CameraMarker, setup.markerToTracker);
   ui_->streamList->setChoice(StreamList::Role::Phantom, setup.phantomToTracker);
   ui_->streamList->setChoice(StreamList::Role::Video, hub.imageName());
+  ui_->streamList->setChoice(StreamList::Role::RightVideo, setup.rightImage);
   if (!ui_->latencySpin->hasFocus())
   {
     const QSignalBlocker blocker(ui_->latencySpin);

@@ -185,9 +185,17 @@ void HandEyeCalibrationPanel::Private::connectAll()
   connect(overlay, &handeye::OverlayPage::lookChanged, drawn, &handeye::OverlayPresenter::setLook);
   connect(overlay, &handeye::OverlayPage::smoothingChanged, drawn, &handeye::OverlayPresenter::setSmoothing);
   connect(overlay, &handeye::OverlayPage::snapshotWanted, drawn, &handeye::OverlayPresenter::takeSnapshot);
+  connect(overlay, &handeye::OverlayPage::stereoChanged, drawn, &handeye::OverlayPresenter::setStereo);
+  connect(overlay, &handeye::OverlayPage::recordingWanted, drawn, &handeye::OverlayPresenter::startRecording);
+  connect(overlay, &handeye::OverlayPage::recordingUnwanted, drawn, &handeye::OverlayPresenter::stopRecording);
+  connect(drawn, &handeye::OverlayPresenter::recordingChanged, overlay, &handeye::OverlayPage::setRecording);
   connect(drawn, &handeye::OverlayPresenter::stateChanged, overlay, &handeye::OverlayPage::setState);
   connect(drawn, &handeye::OverlayPresenter::lookChanged, overlay,
-    [drawn, overlay] { overlay->setLook(drawn->look(), drawn->opacity()); });
+    [drawn, overlay]
+    {
+      overlay->setLook(drawn->look(), drawn->opacity());
+      overlay->setStereo(drawn->stereo());
+    });
 }
 
 void HandEyeCalibrationPanel::Private::showProgress(int done, int total, const QString& what)

@@ -48,6 +48,7 @@ void HandEyeWorkbench::connectTasks()
 {
   devices_->setHandlers([this](const devices::DeviceSample& sample) { onSample(sample); },
     [this](const devices::PairedFrame& frame) { onFrame(frame); });
+  devices_->setRightFrameHandler([this](const devices::PairedFrame& frame) { live_->takeRight(frame); });
   live_->addListener(
     [this](const devices::PairedFrame& frame, const std::optional<BallDetection>& ball)
     {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "CalibratedEye.h"
 #include "CalibrationStep.h"
 #include "CameraFile.h"
 #include "CaptureTask.h"
@@ -179,8 +180,12 @@ public:
   std::optional<OverlayTransforms> overlayTransforms(QString& reason) const;
   /// Where the stylus is in a frame; nothing if that is not known. p_Camera = stylusTipToCamera * p_StylusTip
   std::optional<Eigen::Isometry3d> stylusTipToCamera(const devices::PairedFrame& frame) const;
+  /// The same for the right eye.
+  std::optional<Eigen::Isometry3d> stylusTipToRightCamera(const devices::PairedFrame& frame) const;
   /// Of the calibration (rotation vector rad, translation mm; `Camera` frame); nothing if it is not known.
   std::optional<Eigen::Matrix<double, 6, 6>> calibrationCovariance() const;
+  /// The right eye of a stereo rig, where a calibration with one was loaded.
+  std::optional<CalibratedEye> rightEye() const { return isCalibrationLoaded_ && calibration_ ? rightEye_ : std::nullopt; }
   /// Into the session's folder, as PNG; an empty picture is refused.
   void saveSnapshot(const QImage& picture);
 
@@ -238,6 +243,7 @@ private:
   void refuse(WizardStep step, const QString& message);
   /// Work beside the window; what it throws is a refusal of the step.
   void beside(WizardStep step, std::function<void()> work);
+  std::optional<Eigen::Isometry3d> stylusTipTo(const Eigen::Isometry3d& markerToCamera, const devices::PairedFrame& frame) const;
   void tell(std::function<void()> news);
   void onSample(const devices::DeviceSample& sample);
   void onFrame(const devices::PairedFrame& frame);
@@ -257,7 +263,8 @@ private:
   std::optional<Stylus> stylus_;
   Ball ball_;
   std::optional<CalibrationStepResult> calibration_;
-  bool isCalibrationLoaded_ = false;  ///< from a file: there are no samples of it
+  bool isCalibrationLoaded_ = false;       ///< from a file: there are no samples of it
+  std::optional<CalibratedEye> rightEye_;  ///< that came with the file
   std::optional<ValidationStepResult> validation_;
   double nearestMm_ = 160, furthestMm_ = 420, enoughPx_ = 1.5;
   bool isCalibrationAsked_ = false, isCalibrating_ = false, isCalibrationStale_ = false;

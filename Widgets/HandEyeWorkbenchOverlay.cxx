@@ -39,20 +39,31 @@ std::optional<OverlayTransforms> HandEyeWorkbench::overlayTransforms(QString& re
   return OverlayTransforms{ calibration_->calibration.markerToCamera, *modelToPhantom_ };
 }
 
-std::optional<Eigen::Isometry3d> HandEyeWorkbench::stylusTipToCamera(const devices::PairedFrame& frame) const
+std::optional<Eigen::Isometry3d> HandEyeWorkbench::stylusTipTo(
+  const Eigen::Isometry3d& markerToCamera, const devices::PairedFrame& frame) const
 {
   const DeviceSetup& setup = devices_->setup();
   const PoseAtTime* marker = usablePose(frame.poses, setup.markerToTracker);
   const PoseAtTime* stylus = usablePose(frame.poses, setup.stylusToTracker);
-  if (!calibration_ || !calibration_->isUsable() || !stylus_ || !marker || !stylus)
+  if (!stylus_ || !marker || !stylus)
   {
     return std::nullopt;
   }
   Eigen::Isometry3d tipAlone = Eigen::Isometry3d::Identity();
   tipAlone.translation() = stylus_->tip_Stylus;
-  const Eigen::Isometry3d trackerToCamera = calibration_->calibration.markerToCamera * marker->transform.inverse();
-  const Eigen::Isometry3d stylusToCamera = trackerToCamera * stylus->transform;
-  return stylusToCamera * stylus_->stylusTipToStylus.value_or(tipAlone);
+  return toStylusTipToCamera(markerToCamera, marker->transform, stylus->transform, stylus_->stylusTipToStylus.value_or(tipAlone));
+}
+
+std::optional<Eigen::Isometry3d> HandEyeWorkbench::stylusTipToCamera(const devices::PairedFrame& frame) const
+{
+  const bool isKnown = calibration_ && calibration_->isUsable();
+  return isKnown ? stylusTipTo(calibration_->calibration.markerToCamera, frame) : std::nullopt;
+}
+
+std::optional<Eigen::Isometry3d> HandEyeWorkbench::stylusTipToRightCamera(const devices::PairedFrame& frame) const
+{
+  const std::optional<CalibratedEye> eye = rightEye();
+  return eye ? stylusTipTo(eye->markerToCamera, frame) : std::nullopt;
 }
 
 std::optional<Eigen::Matrix<double, 6, 6>> HandEyeWorkbench::calibrationCovariance() const

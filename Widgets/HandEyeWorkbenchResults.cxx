@@ -150,9 +150,11 @@ void HandEyeWorkbench::loadCalibration(const QString& path)
       const StoredCalibration stored = readCalibration(file);
       nlohmann::json document = readDocument(file);
       const auto covariance = readCalibrationCovariance(file);
+      const std::optional<CalibratedEye> right = readRightEye(file);
       tell(
-        [this, stored, document, covariance, path]
+        [this, stored, document, covariance, right, path]
         {
+          rightEye_ = right;
           CalibrationStepResult loaded{ {}, stored.camera, {}, stored.tools, stored.tip_Stylus, stored.ballRadiusMm, {}, {} };
           loaded.calibration.status = HandEyeCalibrationResult::Status::Ok;
           loaded.calibration.markerToCamera = stored.markerToCamera;

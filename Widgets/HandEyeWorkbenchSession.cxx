@@ -112,7 +112,8 @@ void HandEyeWorkbench::storeDevices()
     { { "kind", int(setup.kind) }, { "servers", servers }, { "camera", setup.camera.toStdString() },
       { "recording", setup.recording.toStdString() }, { "stylusToTracker", setup.stylusToTracker.toStdString() },
       { "markerToTracker", setup.markerToTracker.toStdString() }, { "phantomToTracker", setup.phantomToTracker.toStdString() },
-      { "image", setup.image.toStdString() }, { "latencySec", setup.latencySec } });
+      { "image", setup.image.toStdString() }, { "rightImage", setup.rightImage.toStdString() },
+      { "latencySec", setup.latencySec } });
 }
 
 /// What a session holds becomes the state; a document that cannot be read is a problem, and the rest comes back.
@@ -151,6 +152,7 @@ void HandEyeWorkbench::takeDocuments(const std::map<std::string, json>& document
     setup.markerToTracker = text(devices, "markerToTracker", setup.markerToTracker);
     setup.phantomToTracker = text(devices, "phantomToTracker", setup.phantomToTracker);
     setup.image = text(devices, "image", setup.image);
+    setup.rightImage = text(devices, "rightImage", setup.rightImage);
     setup.latencySec = number(devices, "latencySec", setup.latencySec);
     devices_->setNames(setup);
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ImageConversion.h"
 
+#include "EightBitImage.h"
+
 #include <opencv2/imgproc.hpp>
 
 #include <stdexcept>
@@ -15,11 +17,7 @@ QImage toQImage(const cv::Mat& image)
   {
     return {};
   }
-  cv::Mat bytes = image;
-  if (image.depth() == CV_16U)
-  {
-    image.convertTo(bytes, CV_8U, 1 / 257.0);
-  }
+  const cv::Mat bytes = image.depth() == CV_16U ? toEightBit(image) : image;
   if (bytes.depth() != CV_8U || (bytes.channels() != 1 && bytes.channels() != 3 && bytes.channels() != 4))
   {
     throw std::invalid_argument("a picture to be shown has 8 or 16 bits and is grey, BGR or BGRA");

@@ -4,6 +4,8 @@
 
 #include "WorkThread.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace handeye
@@ -13,6 +15,9 @@ namespace
 {
 
 constexpr qint64 StagesEachMs = 200, ShownEachMs = 32;
+/// Frames of two eyes that are further apart are not of one moment: one of the videos stands still.
+constexpr double MostApartSec = 0.2;
+constexpr std::size_t RightFrames = 8;
 
 }  // namespace
 
@@ -38,7 +43,37 @@ void LivePipeline::setSettings(const Settings& settings)
 
 void LivePipeline::take(const devices::PairedFrame& frame)
 {
-  work_.postNewest([this, frame] { process(frame); });
+  // Its partner is kept with it: many more may come before it is this frame's turn.
+  work_.postNewest(
+    [this, frame, right = rightAt(frame.image.timeSec)]
+    {
+      if (right)
+      {
+        const std::lock_guard lock(mutex_);
+        right_.push_front(*right);
+      }
+      process(frame);
+    });
+}
+
+void LivePipeline::takeRight(const devices::PairedFrame& frame)
+{
+  const std::lock_guard lock(mutex_);
+  right_.push_back(frame);
+  while (right_.size() > RightFrames)
+  {
+    right_.pop_front();
+  }
+}
+
+/// The right eye's frame that is nearest to this time.
+std::optional<devices::PairedFrame> LivePipeline::rightAt(double timeSec)
+{
+  const std::lock_guard lock(mutex_);
+  const auto apart = [timeSec](const devices::PairedFrame& frame) { return std::abs(frame.image.timeSec - timeSec); };
+  const auto nearest =
+    std::min_element(right_.begin(), right_.end(), [&](const auto& a, const auto& b) { return apart(a) < apart(b); });
+  return nearest != right_.end() && apart(*nearest) <= MostApartSec ? std::optional(*nearest) : std::nullopt;
 }
 
 void LivePipeline::clear()
@@ -49,6 +84,10 @@ void LivePipeline::clear()
   }
   nextShowing_.stop();
   newest_.reset();
+  {
+    const std::lock_guard lock(mutex_);
+    right_.clear();
+  }
   emit shown();
 }
 
@@ -57,6 +96,7 @@ void LivePipeline::process(const devices::PairedFrame& frame)
 {
   auto view = std::make_shared<LiveView>();
   view->frame = frame;
+  view->right = rightAt(frame.image.timeSec);
   if (active_.detects && active_.camera)
   {
     lookForBall(*view);

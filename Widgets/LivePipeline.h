@@ -14,6 +14,7 @@
 #include <QTimer>
 
 #include <atomic>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -29,9 +30,10 @@ class WorkThread;
 struct LiveView
 {
   devices::PairedFrame frame;
-  std::optional<BallDetection> ball;  ///< if the ball was looked for
-  std::optional<BallStages> stages;   ///< if the pictures were asked for, a few times a second
-  QString problem;                    ///< why the ball could not be looked for, a sentence
+  std::optional<devices::PairedFrame> right;  ///< of a stereo rig's right eye, the nearest in time
+  std::optional<BallDetection> ball;          ///< if the ball was looked for
+  std::optional<BallStages> stages;           ///< if the pictures were asked for, a few times a second
+  QString problem;                            ///< why the ball could not be looked for, a sentence
 
   const cv::Mat& image() const { return frame.image.frame()->image; }
 };
@@ -67,6 +69,8 @@ public:
 
   /// A frame of the video, from whatever thread.
   void take(const devices::PairedFrame& frame);
+  /// A frame of a stereo rig's right eye, from whatever thread; it is shown with the left eye's frame of its moment.
+  void takeRight(const devices::PairedFrame& frame);
 
   /// The newest frame that was shown; null before the first.
   std::shared_ptr<const LiveView> newest() const { return newest_; }
@@ -79,6 +83,7 @@ signals:
 private:
   void process(const devices::PairedFrame& frame);
   void lookForBall(LiveView& view);
+  std::optional<devices::PairedFrame> rightAt(double timeSec);
   void publish(const std::shared_ptr<LiveView>& view);
   void show();
 
@@ -96,6 +101,7 @@ private:
 
   std::mutex mutex_;
   std::shared_ptr<LiveView> pending_;  ///< on its way to the window
+  std::deque<devices::PairedFrame> right_;  ///< the newest few
 };
 
 }  // namespace handeye

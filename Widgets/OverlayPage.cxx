@@ -7,12 +7,35 @@
 
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QIcon>
+#include <QMap>
+#include <QPainter>
+#include <QPixmap>
 #include <QSignalBlocker>
 
 #include <algorithm>
 
 namespace handeye
 {
+
+namespace
+{
+
+/// A red disc while it is recorded, a grey ring otherwise.
+QIcon recordingLight(OverlayRecordingState::Phase phase)
+{
+  const bool isOn = phase == OverlayRecordingState::Phase::Recording;
+  QPixmap picture(32, 32);
+  picture.fill(Qt::transparent);
+  QPainter painter(&picture);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(isOn ? QColor(150, 20, 20) : QColor(128, 128, 128), 4));
+  painter.setBrush(isOn ? QBrush(QColor(225, 40, 40)) : QBrush(Qt::NoBrush));
+  painter.drawEllipse(QRectF(5, 5, 22, 22));
+  return QIcon(picture);
+}
+
+}  // namespace
 
 OverlayPage::OverlayPage(HandEyeWorkbench& workbench, QWidget* parent)
   : WizardPage(workbench, WizardStep::Overlay, parent)
@@ -36,6 +59,7 @@ OverlayPage::OverlayPage(HandEyeWorkbench& workbench, QWidget* parent)
       }
     });
   connectLook();
+  connectEyesAndVideo();
   connect(ui_->landmarks, &LandmarkPanel::touchRequested, this, &OverlayPage::takeTip);
   connect(ui_->landmarks, &LandmarkPanel::currentLandmarkChanged, this, &OverlayPage::playRoom);
   connect(ui_->landmarks, &LandmarkPanel::pairsChanged, this,
@@ -120,6 +144,64 @@ void OverlayPage::connectLook()
   showLook();
 }
 
+void OverlayPage::connectEyesAndVideo()
+{
+  const auto choose = [this]
+  {
+    const int row = ui_->eyesBox->currentIndex();
+    OverlayStereo stereo;
+    if (row > 0)
+    {
+      stereo.layout = vtkHandEyeStereoOverlay::Layout(row - 1);
+    }
+    stereo.isSwapped = ui_->swapBox->isChecked();
+    emit stereoChanged(stereo);
+  };
+  connect(ui_->eyesBox, QOverload<int>::of(&QComboBox::activated), this, choose);
+  connect(ui_->swapBox, &QCheckBox::clicked, this, choose);
+  connect(ui_->recordButton, &QPushButton::clicked, this,
+    [this]
+    {
+      if (isRecording_)
+      {
+        emit recordingUnwanted();
+        return;
+      }
+      emit recordingWanted(ui_->formatBox->currentIndex() == 1 ? QStringLiteral(".avi") : QStringLiteral(".mp4"));
+    });
+  setRecording({});
+}
+
+void OverlayPage::setStereo(const OverlayStereo& stereo)
+{
+  ui_->eyesBox->setCurrentIndex(stereo.layout ? int(*stereo.layout) + 1 : 0);
+  ui_->swapBox->setChecked(stereo.isSwapped);
+}
+
+void OverlayPage::setRecording(const OverlayRecordingState& state)
+{
+  using Phase = OverlayRecordingState::Phase;
+  isRecording_ = state.phase == Phase::Recording;
+  const int seconds = int(state.elapsedSec);
+  const QString time = QStringLiteral("%1:%2").arg(seconds / 60).arg(seconds % 60, 2, 10, QLatin1Char('0'));
+  const QString name = QFileInfo(state.path).fileName();
+  const QString counted = tr("%1, %2 pictures").arg(time).arg(state.pictureCount);
+  const QMap<Phase, QString> words = { { Phase::Idle, QString() }, { Phase::Recording, tr("Recording: %1").arg(counted) },
+    { Phase::Finishing, tr("Storing: %1").arg(counted) }, { Phase::Stored, tr("Stored: videos/%1 (%2)").arg(name, counted) },
+    { Phase::Failed, tr("Not recorded:") } };
+  ui_->recordButton->setText(isRecording_ ? tr("Stop &recording") : tr("&Record a video"));
+  ui_->recordButton->setEnabled(state.phase != Phase::Finishing);
+  ui_->formatBox->setEnabled(!isRecording_ && state.phase != Phase::Finishing);
+  ui_->eyesBox->setEnabled(!isRecording_);
+  ui_->swapBox->setEnabled(!isRecording_);
+  ui_->recordLight->setPixmap(recordingLight(state.phase).pixmap(16, 16));
+  ui_->recordLight->setToolTip(isRecording_ ? tr("What the video shows is being recorded") : tr("Nothing is being recorded"));
+  ui_->recordLight->setAccessibleDescription(ui_->recordLight->toolTip());
+  ui_->recordLabel->setText((words.value(state.phase) + QLatin1Char(' ') + state.message).trimmed());
+  ui_->recordLabel->setToolTip(state.path);
+  ui_->recordLabel->setVisible(!ui_->recordLabel->text().isEmpty());
+}
+
 void OverlayPage::showLook()
 {
   ui_->lensBox->setCurrentIndex(look_.undistorted ? 1 : 0);
@@ -144,6 +226,8 @@ void OverlayPage::setState(const OverlayState& state)
 {
   ui_->overlayLabel->setText(state.problem.isEmpty() ? tr("The model is drawn where the calibration puts it.") : state.problem);
   ui_->haloBox->setEnabled(state.hasHalo);
+  ui_->eyesLabel->setText(ui_->eyesBox->currentIndex() > 0 ? state.stereoProblem : QString());
+  ui_->eyesLabel->setVisible(!ui_->eyesLabel->text().isEmpty());
   const QString delay = ui_->smoothBox->isChecked() ? tr("delay %1 ms").arg(1000 * state.delaySec, 0, 'f', 0) : tr("no delay");
   ui_->delayLabel->setText(delay);
   ui_->haloLabel->setText(state.predictedErrorPx ? tr("Halo: predicted error %1 px").arg(*state.predictedErrorPx, 0, 'f', 1)

@@ -30,13 +30,19 @@ public:
 
   /// What the controls show, after a key changed it. @param opacity 0 to 1
   void setLook(const OverlayLook& look, double opacity);
+  void setStereo(const OverlayStereo& stereo);
   void setState(const OverlayState& state);
+  void setRecording(const OverlayRecordingState& state);
 
 signals:
   void opacityChanged(double opacity);
   void lookChanged(const handeye::OverlayLook& look);
   void smoothingChanged(bool smooth);
   void snapshotWanted();
+  void stereoChanged(const handeye::OverlayStereo& stereo);
+  /// @param ending of the file: ".mp4"
+  void recordingWanted(const QString& ending);
+  void recordingUnwanted();
 
 private:
   void playRoom();
@@ -44,11 +50,13 @@ private:
   void takeTip();
   void showRegistration();
   void connectLook();
+  void connectEyesAndVideo();
   void showLook();
 
   std::unique_ptr<Ui::OverlayPage> ui_;
   TouchTask touch_;
   OverlayLook look_;
+  bool isRecording_ = false;
 };
 
 }  // namespace handeye

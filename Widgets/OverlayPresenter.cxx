@@ -3,6 +3,7 @@
 #include "OverlayPresenter.h"
 
 #include "EigenVtk.h"
+#include "EightBitImage.h"
 #include "OverlayStylus.h"
 #include "vtkHandEyeOverlayPipeline.h"
 
@@ -48,6 +49,7 @@ OverlayPresenter::OverlayPresenter(HandEyeWorkbench& workbench, VideoView& view,
   , workbench_(workbench)
   , view_(view)
   , queue_(std::make_shared<Queue>())
+  , recording_(new OverlayRecordingTask(this))
 {
   workbench.live().addListener(
     [queue = queue_](const devices::PairedFrame& frame, const std::optional<BallDetection>&) { queue->add(frame); });
@@ -55,6 +57,7 @@ OverlayPresenter::OverlayPresenter(HandEyeWorkbench& workbench, VideoView& view,
     [this]
     {
       view_.pipeline()->SetModel(workbench_.model());
+      view_.rightPipeline()->SetModel(workbench_.model());
       view_.requestRender();
     });
   // What was seen belongs to the devices, the calibration and the registration of its time.
@@ -64,6 +67,9 @@ OverlayPresenter::OverlayPresenter(HandEyeWorkbench& workbench, VideoView& view,
   connect(&workbench, &HandEyeWorkbench::stylusChanged, this, &OverlayPresenter::applyCalibration);
   connect(&workbench, &HandEyeWorkbench::ballChanged, this, &OverlayPresenter::applyCalibration);
   connect(&workbench, &HandEyeWorkbench::stepEntered, this, &OverlayPresenter::applyLook);
+  connect(&workbench, &HandEyeWorkbench::sessionOpened, this, &OverlayPresenter::stopRecording);
+  connect(&view, &VideoView::rendered, this, &OverlayPresenter::record);
+  connect(recording_, &OverlayRecordingTask::changed, this, &OverlayPresenter::recordingChanged);
   // A model on a picture that stands still looks right and is not.
   silence_.setSingleShot(true);
   silence_.setInterval(1500);
@@ -74,8 +80,11 @@ OverlayPresenter::OverlayPresenter(HandEyeWorkbench& workbench, VideoView& view,
       hide(tr("No new picture has come for 1.5 s: the model is not drawn on an old one."));
       view_.requestRender();
     });
-  view_.pipeline()->SetModelVisible(false);
-  view_.pipeline()->SetModelOpacity(opacity_);
+  for (vtkHandEyeOverlayPipeline* pipeline : { view_.pipeline(), view_.rightPipeline() })
+  {
+    pipeline->SetModelVisible(false);
+    pipeline->SetModelOpacity(opacity_);
+  }
 }
 
 bool OverlayPresenter::isWanted() const
@@ -86,6 +95,7 @@ bool OverlayPresenter::isWanted() const
 void OverlayPresenter::forget()
 {
   live_.reset();
+  rightLive_.reset();
   queue_->take();
 }
 
@@ -97,15 +107,34 @@ void OverlayPresenter::applyCalibration()
   shape.hasShaft = workbench_.stylus() && workbench_.stylus()->stylusTipToStylus;
   view_.pipeline()->SetStylusShape(shape);
   view_.pipeline()->SetCalibrationCovariance(workbench_.calibrationCovariance());
+  const std::optional<CalibratedEye> right = workbench_.rightEye();
+  view_.rightPipeline()->SetStylusShape(shape);
+  view_.rightPipeline()->SetCalibrationCovariance(right ? right->covariance : std::nullopt);
+  if (right)
+  {
+    view_.rightPipeline()->SetCameraModel(right->camera);
+  }
 }
 
 void OverlayPresenter::hide(const QString& problem)
 {
-  view_.pipeline()->SetModelVisible(false);
-  view_.pipeline()->SetNotice({});
-  view_.pipeline()->SetFade(1);
-  view_.pipeline()->SetStylusTipToCamera(nullptr);
-  emit stateChanged({ problem, 0, workbench_.calibrationCovariance().has_value(), {} });
+  for (vtkHandEyeOverlayPipeline* pipeline : { view_.pipeline(), view_.rightPipeline() })
+  {
+    pipeline->SetModelVisible(false);
+    pipeline->SetNotice({});
+    pipeline->SetFade(1);
+    pipeline->SetStylusTipToCamera(nullptr);
+  }
+  OverlayState state;
+  state.problem = problem;
+  state.hasHalo = workbench_.calibrationCovariance().has_value();
+  const std::shared_ptr<const LiveView> shown = workbench_.live().newest();
+  state.stereoProblem = shown ? stereoProblem(*shown) : tr("There is no video.");
+  if (!shown)
+  {
+    view_.setStereo({});
+  }
+  emit stateChanged(state);
 }
 
 /// All poses since the last frame. Where their time goes back (a recording that begins anew) so does what was seen.
@@ -113,6 +142,7 @@ void OverlayPresenter::feed(const OverlayTransforms& transforms)
 {
   const DeviceSetup& setup = workbench_.devices().setup();
   const std::string marker = setup.markerToTracker.toStdString(), phantom = setup.phantomToTracker.toStdString();
+  const std::optional<CalibratedEye> right = workbench_.rightEye();
   for (const Poses& poses : queue_->take())
   {
     if (!live_ || poses.timeSec < newestSec_)
@@ -120,6 +150,9 @@ void OverlayPresenter::feed(const OverlayTransforms& transforms)
       LiveOverlayOptions options;
       options.smooth = smooth_;
       live_ = std::make_unique<LiveOverlay>(transforms, options);
+      const OverlayTransforms rightTransforms{ right ? right->markerToCamera : transforms.markerToCamera,
+        transforms.modelToPhantom };
+      rightLive_ = right ? std::make_unique<LiveOverlay>(rightTransforms, options) : nullptr;
     }
     newestSec_ = poses.timeSec;
     const auto poseOf = [&](const std::string& name)
@@ -128,12 +161,31 @@ void OverlayPresenter::feed(const OverlayTransforms& transforms)
       return pose == poses.byTool.end() ? PoseAtTime() : pose->second;
     };
     const PoseAtTime markerPose = poseOf(marker), phantomPose = poseOf(phantom);
-    live_->addMarker(poses.timeSec, markerPose.transform, markerPose.isUsable());
-    live_->addPhantom(poses.timeSec, phantomPose.transform, phantomPose.isUsable());
+    for (LiveOverlay* live : { live_.get(), rightLive_.get() })
+    {
+      if (live)
+      {
+        live->addMarker(poses.timeSec, markerPose.transform, markerPose.isUsable());
+        live->addPhantom(poses.timeSec, phantomPose.transform, phantomPose.isUsable());
+      }
+    }
   }
 }
 
 void OverlayPresenter::show(const LiveView& shown)
+{
+  OverlayTransformSet transforms{ { "ModelToCamera", std::nullopt } };
+  const bool isStereo = isWanted() && stereo_.layout && stereoProblem(shown).isEmpty();
+  view_.setStereo(isStereo ? stereo_.layout : std::nullopt, stereo_.isSwapped);
+  draw(shown, transforms);
+  next_.reset();
+  if (recording_->isRecording())
+  {
+    next_ = NextPicture{ shown.frame.image.timeSec, transforms };
+  }
+}
+
+void OverlayPresenter::draw(const LiveView& shown, OverlayTransformSet& transforms)
 {
   if (!isWanted() || !workbench_.model())
   {
@@ -142,22 +194,43 @@ void OverlayPresenter::show(const LiveView& shown)
     return;
   }
   QString problem;
-  const std::optional<OverlayTransforms> transforms = workbench_.overlayTransforms(problem);
-  if (!transforms)
+  const std::optional<OverlayTransforms> placing = workbench_.overlayTransforms(problem);
+  if (!placing)
   {
     forget();
     hide(problem);
     return;
   }
   silence_.start();
-  feed(*transforms);
+  feed(*placing);
   if (!live_)
   {
     hide({});
     return;
   }
   vtkHandEyeOverlayPipeline* pipeline = view_.pipeline();
-  const LiveOverlayPose pose = live_->at(shown.frame.poseTimeSec);
+  const LiveOverlayPose pose = place(*live_, shown.frame.poseTimeSec, pipeline);
+  transforms["ModelToCamera"] = pose.modelToCamera;
+  showStylus(pipeline, workbench_.stylusTipToCamera(shown.frame), transforms["StylusTipToCamera"]);
+  OverlayState state;
+  state.problem = QString::fromStdString(pose.isUsable() && pose.message.empty() ? pipeline->GetProblem() : pose.message);
+  state.delaySec = pose.delaySec;
+  state.hasHalo = workbench_.calibrationCovariance().has_value();
+  state.stereoProblem = stereoProblem(shown);
+  if (state.hasHalo && look_.errorHalo && pose.isUsable())
+  {
+    state.predictedErrorPx = pipeline->GetPredictedErrorPx();
+  }
+  if (view_.stereo())
+  {
+    showRight(shown, transforms);
+  }
+  emit stateChanged(state);
+}
+
+LiveOverlayPose OverlayPresenter::place(LiveOverlay& live, double timeSec, vtkHandEyeOverlayPipeline* pipeline)
+{
+  const LiveOverlayPose pose = live.at(timeSec);
   if (pose.modelToCamera)
   {
     pipeline->SetModelToCamera(toVtk(*pose.modelToCamera));
@@ -165,35 +238,79 @@ void OverlayPresenter::show(const LiveView& shown)
   pipeline->SetModelVisible(pose.isUsable());
   pipeline->SetFade(pose.opacity);
   pipeline->SetNotice(pose.message);
-  showStylus(shown.frame);
-  OverlayState state;
-  state.problem = QString::fromStdString(pose.isUsable() && pose.message.empty() ? pipeline->GetProblem() : pose.message);
-  state.delaySec = pose.delaySec;
-  state.hasHalo = workbench_.calibrationCovariance().has_value();
-  if (state.hasHalo && look_.errorHalo && pose.isUsable())
-  {
-    state.predictedErrorPx = pipeline->GetPredictedErrorPx();
-  }
-  emit stateChanged(state);
+  return pose;
 }
 
-void OverlayPresenter::showStylus(const devices::PairedFrame& frame)
+/// Why two eyes cannot be shown.
+QString OverlayPresenter::stereoProblem(const LiveView& shown) const
 {
-  const std::optional<Eigen::Isometry3d> stylusTipToCamera = workbench_.stylusTipToCamera(frame);
+  const DeviceSetup& setup = workbench_.devices().setup();
+  if (!workbench_.rightEye())
+  {
+    return tr(
+      "One eye: the calibration is of one camera. Load one of a stereo rig on the page Capture (handeye calibrate --right).");
+  }
+  if (setup.rightImage.isEmpty() && !shown.right)
+  {
+    return tr("One eye: choose the right eye's video on the page Devices.");
+  }
+  return shown.right ? QString() : tr("One eye: no picture comes from the right eye's video '%1'.").arg(setup.rightImage);
+}
+
+void OverlayPresenter::showRight(const LiveView& shown, OverlayTransformSet& transforms)
+{
+  vtkHandEyeOverlayPipeline* pipeline = view_.rightPipeline();
+  pipeline->SetVideoFrame(toEightBit(shown.right->image.frame()->image));
+  pipeline->SetModelVisible(false);
+  std::optional<Eigen::Isometry3d>& modelToRight = transforms["ModelToRightCamera"];
+  if (rightLive_)
+  {
+    modelToRight = place(*rightLive_, shown.right->poseTimeSec, pipeline).modelToCamera;
+  }
+  showStylus(pipeline, workbench_.stylusTipToRightCamera(*shown.right), transforms["StylusTipToRightCamera"]);
+}
+
+void OverlayPresenter::showStylus(vtkHandEyeOverlayPipeline* pipeline, const std::optional<Eigen::Isometry3d>& stylusTipToCamera,
+  std::optional<Eigen::Isometry3d>& kept)
+{
+  kept = stylusTipToCamera;
   if (stylusTipToCamera)
   {
-    view_.pipeline()->SetStylusTipToCamera(toVtk(*stylusTipToCamera));
+    pipeline->SetStylusTipToCamera(toVtk(*stylusTipToCamera));
     return;
   }
-  view_.pipeline()->SetStylusTipToCamera(nullptr);
+  pipeline->SetStylusTipToCamera(nullptr);
+}
+
+void OverlayPresenter::startRecording(const QString& ending)
+{
+  const QString folder = workbench_.capture().isOpen() ? workbench_.sessionFolder() + QStringLiteral("/videos") : QString();
+  recording_->start(folder, ending);
+}
+
+/// What was rendered of the frame that was shown last.
+void OverlayPresenter::record()
+{
+  cv::Mat picture;
+  if (next_ && recording_->isRecording() && view_.readShown(picture))
+  {
+    recording_->add(picture, next_->timeSec, next_->transforms);
+  }
+  next_.reset();
 }
 
 /// The other pages show the video as it is recorded.
 void OverlayPresenter::applyLook()
 {
-  view_.pipeline()->SetLook(isWanted() ? look_ : OverlayLook());
+  for (vtkHandEyeOverlayPipeline* pipeline : { view_.pipeline(), view_.rightPipeline() })
+  {
+    pipeline->SetLook(isWanted() ? look_ : OverlayLook());
+    pipeline->SetModelOpacity(opacity_);
+  }
   if (!isWanted())
   {
+    recording_->stop();
+    view_.setStereo({});
     hide({});
   }
   view_.requestRender();
@@ -208,16 +325,30 @@ void OverlayPresenter::setLook(const OverlayLook& look)
 void OverlayPresenter::setOpacity(double opacity)
 {
   opacity_ = opacity;
-  view_.pipeline()->SetModelOpacity(opacity);
+  applyLook();
+}
+
+void OverlayPresenter::setStereo(const OverlayStereo& stereo)
+{
+  // Pictures of another size do not go into the video that is being recorded.
+  stereo_ = recording_->isRecording() ? stereo_ : stereo;
+  if (const std::shared_ptr<const LiveView> shown = workbench_.live().newest())
+  {
+    const bool isStereo = isWanted() && stereo_.layout && stereoProblem(*shown).isEmpty();
+    view_.setStereo(isStereo ? stereo_.layout : std::nullopt, stereo_.isSwapped);
+  }
   view_.requestRender();
 }
 
 void OverlayPresenter::setSmoothing(bool smooth)
 {
   smooth_ = smooth;
-  if (live_)
+  for (LiveOverlay* live : { live_.get(), rightLive_.get() })
   {
-    live_->setSmoothing(smooth);
+    if (live)
+    {
+      live->setSmoothing(smooth);
+    }
   }
 }
 
@@ -225,14 +356,43 @@ bool OverlayPresenter::handleKey(int key)
 {
   // Qt's keys of printable characters are their ASCII codes.
   const bool isCharacter = key > Qt::Key_Space && key <= Qt::Key_AsciiTilde;
-  if (!isWanted() || !isCharacter || !view_.pipeline()->HandleKey(char(key)))
+  if (!isWanted() || !isCharacter)
+  {
+    return false;
+  }
+  if (view_.stereo() && handleStereoKey(key))
+  {
+    emit lookChanged();
+    return true;
+  }
+  if (!view_.pipeline()->HandleKey(char(key)))
   {
     return false;
   }
   look_ = view_.pipeline()->GetLook();
   opacity_ = view_.pipeline()->GetModelOpacity();
+  applyLook();
   emit lookChanged();
-  view_.requestRender();
+  return true;
+}
+
+/// As vtkHandEyeStereoOverlay has them: the next layout, and the eyes exchanged.
+bool OverlayPresenter::handleStereoKey(int key)
+{
+  using Layout = vtkHandEyeStereoOverlay::Layout;
+  OverlayStereo stereo = stereo_;
+  switch (key)
+  {
+    case Qt::Key_S:
+      stereo.layout = Layout((int(*stereo.layout) + 1) % (int(Layout::Anaglyph) + 1));
+      break;
+    case Qt::Key_E:
+      stereo.isSwapped = !stereo.isSwapped;
+      break;
+    default:
+      return false;
+  }
+  setStereo(stereo);
   return true;
 }
 

@@ -5,6 +5,7 @@
 #include "HandEyeWorkbench.h"
 #include "LiveOverlay.h"
 #include "OverlayLook.h"
+#include "OverlayRecordingTask.h"
 #include "VideoView.h"
 
 #include <QObject>
@@ -24,6 +25,14 @@ struct OverlayState
   double delaySec = 0;   ///< of the smoothing
   bool hasHalo = false;  ///< the calibration's covariance is known
   std::optional<double> predictedErrorPx;
+  QString stereoProblem;  ///< why there is no picture for two eyes, a sentence; empty if there can be one
+};
+
+/// How the picture is given to one or two eyes.
+struct OverlayStereo
+{
+  std::optional<vtkHandEyeStereoOverlay::Layout> layout;  ///< nothing: the left (or only) eye alone
+  bool isSwapped = false;
 };
 
 /// The model on the live video: its place comes from LiveOverlay, so that it fades, and says which tool is hidden, and never stays
@@ -31,6 +40,9 @@ struct OverlayState
 ///
 /// The poses of every frame go in, valid or not; they have the latency in them already (devices::FramePairing), it is not applied
 /// again.
+///
+/// With a stereo rig's calibration and the right eye's video, both eyes are drawn, each with its own lens and hand-eye. What is
+/// shown can be recorded; that ends when another page than these is entered.
 class OverlayPresenter : public QObject
 {
   Q_OBJECT
@@ -48,6 +60,15 @@ public:
   double opacity() const { return opacity_; }
   void setSmoothing(bool smooth);
 
+  /// What is wanted; it takes effect while there are two eyes.
+  void setStereo(const OverlayStereo& stereo);
+  const OverlayStereo& stereo() const { return stereo_; }
+
+  /// A video of what is shown, in the session's folder. @param ending ".mp4", ".ogv" or ".avi"
+  void startRecording(const QString& ending);
+  void stopRecording() { recording_->stop(); }
+  const OverlayRecordingTask& recording() const { return *recording_; }
+
   /// A key (Qt::Key) that was pressed in the video. @return whether it meant something
   bool handleKey(int key);
   /// What the view shows now becomes a picture of the session.
@@ -58,8 +79,9 @@ public:
 
 signals:
   void stateChanged(const handeye::OverlayState& state);
-  /// A key changed the look or the opacity.
+  /// A key changed the look, the opacity or what two eyes see.
   void lookChanged();
+  void recordingChanged(const handeye::OverlayRecordingState& state);
 
 private:
   struct Poses
@@ -68,22 +90,38 @@ private:
     std::map<std::string, PoseAtTime> byTool;
   };
   struct Queue;  ///< filled in the work's thread
+  /// A picture that is recorded once it has been rendered.
+  struct NextPicture
+  {
+    double timeSec = 0;
+    OverlayTransformSet transforms;
+  };
 
   bool isWanted() const;
   void forget();
+  void draw(const LiveView& shown, OverlayTransformSet& transforms);
   void feed(const OverlayTransforms& transforms);
-  void showStylus(const devices::PairedFrame& frame);
+  LiveOverlayPose place(LiveOverlay& live, double timeSec, vtkHandEyeOverlayPipeline* pipeline);
+  void showRight(const LiveView& shown, OverlayTransformSet& transforms);
+  QString stereoProblem(const LiveView& shown) const;
+  void showStylus(vtkHandEyeOverlayPipeline* pipeline, const std::optional<Eigen::Isometry3d>& stylusTipToCamera,
+    std::optional<Eigen::Isometry3d>& kept);
   void applyLook();
   void applyCalibration();
+  void record();
+  bool handleStereoKey(int key);
 
   HandEyeWorkbench& workbench_;
   VideoView& view_;
   std::shared_ptr<Queue> queue_;
-  std::unique_ptr<LiveOverlay> live_;
+  std::unique_ptr<LiveOverlay> live_, rightLive_;
   double newestSec_ = 0;  ///< of the poses in it
   OverlayLook look_;
   double opacity_ = 0.65;
   bool smooth_ = false;
+  OverlayStereo stereo_;
+  OverlayRecordingTask* recording_;
+  std::optional<NextPicture> next_;
   QTimer silence_;  ///< runs out when no picture comes any more
 };
 

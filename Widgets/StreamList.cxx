@@ -49,7 +49,8 @@ QString typeWord(StreamList::Type type)
 
 StreamList::Type typeOf(StreamList::Role role)
 {
-  return role == StreamList::Role::Video ? StreamList::Type::Video : StreamList::Type::Transform;
+  return role == StreamList::Role::Video || role == StreamList::Role::RightVideo ? StreamList::Type::Video
+                                                                                 : StreamList::Type::Transform;
 }
 
 /// "0.02", "3.1", "75": as many digits as one can read while they change.
@@ -110,7 +111,7 @@ void StreamList::Private::fill(Role role)
   QComboBox* box = boxes[index];
   QStringList names, labels;
   names += QString();
-  labels += role == Role::Phantom ? StreamList::tr("(none)") : StreamList::tr("(choose)");
+  labels += role == Role::Phantom || role == Role::RightVideo ? StreamList::tr("(none)") : StreamList::tr("(choose)");
   for (const Stream& stream : streams)
   {
     if (stream.type == typeOf(role))
@@ -193,10 +194,12 @@ StreamList::StreamList(QWidget* parent)
   layout->addWidget(d->nothing);
 
   auto* form = new QFormLayout();
-  const QString titles[RoleCount] = { tr("&Stylus"), tr("&Camera's marker"), tr("P&hantom"), tr("&Video") };
+  const QString titles[RoleCount] = { tr("&Stylus"), tr("&Camera's marker"), tr("P&hantom"), tr("&Video"),
+    tr("&Right eye's video") };
   const QString uses[RoleCount] = { tr("Transform of the stylus: StylusToTracker, mm"),
     tr("Transform of the marker on the camera: MarkerToTracker, mm"),
-    tr("Transform of the marker on the phantom: PhantomToTracker, mm; only the overlay needs it"), tr("The camera's images") };
+    tr("Transform of the marker on the phantom: PhantomToTracker, mm; only the overlay needs it"), tr("The camera's images"),
+    tr("The images of a stereo rig's right eye; only the overlay for two eyes needs them") };
   for (int role = 0; role < RoleCount; ++role)
   {
     auto* box = new QComboBox(this);

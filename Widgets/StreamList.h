@@ -36,10 +36,11 @@ public:
     Stylus,
     CameraMarker,
     Phantom,  ///< may be none
-    Video
+    Video,
+    RightVideo  ///< of a stereo rig's right eye; may be none
   };
   Q_ENUM(Role)
-  static constexpr int RoleCount = 4;
+  static constexpr int RoleCount = 5;
 
   struct Stream
   {

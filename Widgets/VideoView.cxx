@@ -35,7 +35,7 @@ public:
   {
     const double image[2] = { point_Image_Px.x(), point_Image_Px.y() };
     double display[2];
-    if (!this->pipeline->ImageToDisplay(image, display))
+    if (this->layout || !this->pipeline->ImageToDisplay(image, display))
     {
       return {};
     }
@@ -51,7 +51,8 @@ public:
     const double height = this->window->GetSize()[1];
     const double display[2] = { point_Widget.x() * ratio - 0.5, height - point_Widget.y() * ratio - 0.5 };
     double image[2];
-    return this->pipeline->DisplayToImage(display, image) ? std::optional<QPointF>(QPointF(image[0], image[1])) : std::nullopt;
+    return !this->layout && this->pipeline->DisplayToImage(display, image) ? std::optional<QPointF>(QPointF(image[0], image[1]))
+                                                                           : std::nullopt;
   }
 
   /// Marks are drawn again when the picture has moved below them. Not after every rendering: that would ask for the next one.
@@ -70,7 +71,9 @@ public:
   QVTKOpenGLNativeWidget* gl;
   VideoMarks* marks;
   vtkNew<vtkGenericOpenGLRenderWindow> window;
-  vtkNew<vtkHandEyeOverlayPipeline> pipeline;
+  vtkNew<vtkHandEyeStereoOverlay> stereo;
+  vtkHandEyeOverlayPipeline* pipeline = stereo->GetLeft();
+  std::optional<vtkHandEyeStereoOverlay::Layout> layout;  ///< nothing: one eye
   vtkNew<vtkCallbackCommand> rendered;
   QTimer renderTimer;
   QVariantAnimation flash;
@@ -122,6 +125,7 @@ VideoView::VideoView(QWidget* parent)
       if (this->isVisible() && d->gl->isValid())
       {
         d->window->Render();
+        emit this->rendered();
       }
       d->applyDetection();
     });
@@ -142,7 +146,50 @@ VideoView::VideoView(QWidget* parent)
 VideoView::~VideoView()
 {
   d->window->RemoveObserver(d->rendered);
+  d->stereo->AttachTo(nullptr);
   d->pipeline->AttachTo(nullptr);
+}
+
+vtkHandEyeOverlayPipeline* VideoView::rightPipeline() const
+{
+  return d->stereo->GetRight();
+}
+
+void VideoView::setStereo(const std::optional<vtkHandEyeStereoOverlay::Layout>& layout, bool isSwapped)
+{
+  if (layout)
+  {
+    d->stereo->SetLayout(*layout);
+    d->stereo->SetSwapped(isSwapped);
+  }
+  if (layout.has_value() == d->layout.has_value())
+  {
+    d->layout = layout;
+    return;
+  }
+  // The one that goes out first: both have the window's layers for themselves.
+  d->layout = layout;
+  if (layout)
+  {
+    d->pipeline->AttachTo(nullptr);
+    d->stereo->AttachTo(d->window);
+  }
+  else
+  {
+    d->stereo->AttachTo(nullptr);
+    d->pipeline->AttachTo(d->window);
+  }
+  d->marks->update();
+}
+
+std::optional<vtkHandEyeStereoOverlay::Layout> VideoView::stereo() const
+{
+  return d->layout;
+}
+
+bool VideoView::readShown(cv::Mat& bgr) const
+{
+  return d->layout ? d->stereo->ReadShown(bgr) : d->pipeline->ReadShown(bgr);
 }
 
 void VideoView::setFrame(const cv::Mat& bgr)

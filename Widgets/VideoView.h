@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Look.h"
+#include "vtkHandEyeStereoOverlay.h"
 
 #include <QPointF>
 #include <QPolygonF>
@@ -72,6 +73,16 @@ public:
   vtkHandEyeOverlayPipeline* pipeline() const;
   vtkRenderWindow* renderWindow() const;
 
+  /// Two eyes: `pipeline()` is the left one's, this the right one's; it is seen while there is a layout.
+  vtkHandEyeOverlayPipeline* rightPipeline() const;
+  /// How both eyes share the view; nothing: the left (or only) eye alone. Places in the picture are not known while two are
+  /// shown: there are no marks then.
+  void setStereo(const std::optional<vtkHandEyeStereoOverlay::Layout>& layout, bool isSwapped = false);
+  std::optional<vtkHandEyeStereoOverlay::Layout> stereo() const;
+
+  /// What was rendered last, without marks and bars, in the video's own pixels: see vtkHandEyeOverlayPipeline::ReadShown().
+  bool readShown(cv::Mat& bgr) const;
+
   /// Renders soon, once for many requests; needed after changes to the pipeline only.
   void requestRender();
 
@@ -95,6 +106,8 @@ public:
   QSize sizeHint() const override;
 
 signals:
+  /// After each rendering that was asked for.
+  void rendered();
   /// A click of the left button on the picture (never beside it).
   void imageClicked(QPointF point_Image_Px);
   /// A key that was pressed while the view has the focus: Qt::Key, Qt::KeyboardModifiers. Tab, Shift+Tab and what the application

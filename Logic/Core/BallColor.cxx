@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BallColor.h"
 
+#include "EightBitImage.h"
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -63,7 +65,7 @@ const cv::Mat& toEightBits(const cv::Mat& image, cv::Mat& buffer)
   {
     return image;
   }
-  image.convertTo(buffer, CV_8U, 1.0 / 257);
+  buffer = toEightBit(image);
   return buffer;
 }
 

@@ -26,6 +26,14 @@ double standardDeviation(double variance)
 
 }  // namespace
 
+Covariance6 poseCovarianceIn(const Eigen::Isometry3d& fromToTo, const Covariance6& covariance_From)
+{
+  Covariance6 adjoint = Covariance6::Zero();
+  adjoint.topLeftCorner<3, 3>() = adjoint.bottomRightCorner<3, 3>() = fromToTo.linear();
+  adjoint.bottomLeftCorner<3, 3>() = skew(fromToTo.translation()) * fromToTo.linear();
+  return adjoint * covariance_From * adjoint.transpose();
+}
+
 Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& point_Camera)
 {
   Eigen::Matrix<double, 3, 6> motion;

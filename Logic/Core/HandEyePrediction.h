@@ -21,6 +21,11 @@ namespace handeye
 
 using Covariance6 = Eigen::Matrix<double, 6, 6>;
 
+/// The covariance of a pose error in another frame. The error (w, v) is a small motion from the left, p_From -> exp(w) p_From +
+/// v; seen from the other frame it is the motion (R w, R v + t x R w), with R and t of `fromToTo` (mm).
+/// @param covariance_From of (rotation vector rad, translation mm) @return the same in the frame To
+Covariance6 poseCovarianceIn(const Eigen::Isometry3d& fromToTo, const Covariance6& covariance_From);
+
 /// [-skew(p), I]
 Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& point_Camera);
 

@@ -90,7 +90,7 @@ PoseAge judgePoseAge(
   const std::vector<ToolSight>& tools, const std::optional<double>& togetherSec, double nowSec, const PoseAgeOptions& options)
 {
   const PoseAge each = judgePoseAge(tools, nowSec, options);
-  if (!each.isUsable())
+  if (!each.isUsable() || !togetherSec)
   {
     return each;
   }

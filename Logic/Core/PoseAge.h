@@ -53,9 +53,9 @@ struct PoseAge
 /// Thread-safe.
 [[nodiscard]] PoseAge judgePoseAge(const std::vector<ToolSight>& tools, double nowSec, const PoseAgeOptions& options = {});
 
-/// The same for what was placed when all tools were seen at once: if that is longer ago than each tool by itself (they were hidden in
-/// turn), it decides.
-/// @param togetherSec when all of them were last seen at once; nothing: never
+/// The same for what was placed when all tools were seen at once: if that is longer ago than each tool by itself (they were
+/// hidden in turn), it decides.
+/// @param togetherSec when all of them were last seen at once; nothing: never yet, each tool by itself decides
 [[nodiscard]] PoseAge judgePoseAge(
   const std::vector<ToolSight>& tools, const std::optional<double>& togetherSec, double nowSec, const PoseAgeOptions& options = {});
 

@@ -16,13 +16,11 @@ io::SequenceTransform toSequenceTransform(const Eigen::Isometry3d& transform, bo
   return { transform.matrix(), isValid ? "OK" : "INVALID" };
 }
 
-StreamRecorder::StreamRecorder(const std::filesystem::path& video, const std::filesystem::path& poses, double appliedLatencySec)
+StreamRecorder::StreamRecorder(const std::filesystem::path& video, const std::filesystem::path& poses)
 {
   if (!video.empty())
   {
-    io::SequenceMetafileWriterOptions options;
-    options.fields[io::AppliedLatencyField] = io::formatDouble(appliedLatencySec);
-    video_.writer = std::make_unique<io::SequenceMetafileWriter>(video, options);
+    video_.writer = std::make_unique<io::SequenceMetafileWriter>(video);
   }
   if (!poses.empty())
   {
@@ -101,6 +99,7 @@ bool StreamRecorder::add(const PairedFrame& frame)
           fields.fields[name + "PairingStatus"] = toString(pose.status);
         }
       }
+      video_.writer->setField(io::AppliedLatencyField, io::formatDouble(frame.latencySec));
       video_.writer->append(fields, frame.image.frame()->image);
       ++frameCount_;
     });

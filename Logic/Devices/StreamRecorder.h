@@ -28,9 +28,9 @@ class StreamRecorder
 public:
   /// @param video file for images and their poses; empty for none
   /// @param poses file for all poses; empty for none
-  /// @param appliedLatencySec that the frames have been paired with; the video's file says so, and nobody applies it again
+  /// The video's file says which latency its frames have been paired with (PairedFrame::latencySec), and nobody applies it again.
   /// @throws io::FileError where a folder cannot be written to
-  StreamRecorder(const std::filesystem::path& video, const std::filesystem::path& poses, double appliedLatencySec = 0);
+  StreamRecorder(const std::filesystem::path& video, const std::filesystem::path& poses);
   ~StreamRecorder();
 
   /// @return false if its file has failed

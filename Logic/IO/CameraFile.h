@@ -21,6 +21,7 @@ struct CameraFile
   std::optional<Eigen::Isometry3d> markerToCamera;  ///< p_Camera = markerToCamera * p_Marker, mm; where the file has it
   std::string format;                 ///< "OpenCV", "SlicerPinholeCameras", "VASST", "ROS", "text", "calibration.json"
   std::vector<std::string> warnings;  ///< sentences for the user
+  std::optional<CameraModel> rightCamera = std::nullopt;  ///< of a stereo rig's calibration.json
 };
 
 /// Reads a camera file of any of these kinds, told apart by what is in it and not by its name:
@@ -33,7 +34,7 @@ struct CameraFile
 /// - ROS camera_info YAML: `camera_matrix` and `distortion_coefficients` with rows, cols and data, `distortion_model` plumb_bob or
 ///   rational_polynomial; the message's own spelling (`K`, `D`, `width`, `height`, or lower case) too;
 /// - scikit-surgery text: three rows of three numbers, then the coefficients;
-/// - our own calibration.json (see DESIGN.md): `camera` and `markerToCamera`.
+/// - our own calibration.json (see DESIGN.md): `camera` and `markerToCamera`, of a stereo rig also `rightCamera`.
 ///
 /// Coefficients come in OpenCV's order, as a row or a column: 0, 4, 5, 8, 12 or 14 of them. Any other count is refused.
 /// @throws FileError naming the file, the key and what was expected there, for anything else than a good camera file

@@ -7,17 +7,30 @@
 namespace handeye::io
 {
 
-CameraFile readCalibrationCamera(const std::filesystem::path& path, const nlohmann::json& root)
+namespace
 {
-  const nlohmann::json& camera = root["camera"];
+
+CameraModel readEye(const std::filesystem::path& path, const nlohmann::json& root, const std::string& name)
+{
+  const nlohmann::json& camera = root[name];
   const auto member = [&](const char* key) { return camera.contains(key) ? camera[key] : nlohmann::json(); };
   CameraNumbers numbers;
-  numbers.width = readCount(path, "camera.width", member("width"), 1, LargestImageSide);
-  numbers.height = readCount(path, "camera.height", member("height"), 1, LargestImageSide);
-  numbers.cameraMatrix = readTable(path, "camera.cameraMatrix", member("cameraMatrix"));
-  numbers.coefficients = readTable(path, "camera.distortionCoefficients", member("distortionCoefficients"));
+  numbers.width = readCount(path, name + ".width", member("width"), 1, LargestImageSide);
+  numbers.height = readCount(path, name + ".height", member("height"), 1, LargestImageSide);
+  numbers.cameraMatrix = readTable(path, name + ".cameraMatrix", member("cameraMatrix"));
+  numbers.coefficients = readTable(path, name + ".distortionCoefficients", member("distortionCoefficients"));
+  return makeCamera(path, numbers);
+}
 
-  CameraFile file{ makeCamera(path, numbers), std::nullopt, "calibration.json", {} };
+}  // namespace
+
+CameraFile readCalibrationCamera(const std::filesystem::path& path, const nlohmann::json& root)
+{
+  CameraFile file{ readEye(path, root, "camera"), std::nullopt, "calibration.json", {} };
+  if (root.contains("rightCamera") && root["rightCamera"].is_object())
+  {
+    file.rightCamera = readEye(path, root, "rightCamera");
+  }
   if (root.contains("markerToCamera") && !root["markerToCamera"].is_null())
   {
     file.markerToCamera = makeRigid(path, readTable(path, "markerToCamera", root["markerToCamera"]));

@@ -142,20 +142,26 @@ SequenceMetafileWriter::SequenceMetafileWriter(const std::filesystem::path& path
   : path_(path)
   , options_(options)
 {
-  for (const auto& entry : options_.fields)
+  for (const auto& [name, value] : options.fields)
   {
-    checkField(entry.first, entry.second);
-    const bool isOwn = std::find(OwnFields.begin(), OwnFields.end(), entry.first) != OwnFields.end();
-    if (isOwn || entry.first.compare(0, 9, "Seq_Frame") == 0)
-    {
-      throw std::invalid_argument("sequence metafile: the field " + inQuotes(entry.first) + " is written by the writer itself");
-    }
+    setField(name, value);
   }
   AtomicFile probe(path);  // an unwritable place shows now and not after the recording
   pixels_ = std::make_unique<Pixels>(path, options_.compressed && !options_.transformsOnly);
 }
 
 SequenceMetafileWriter::~SequenceMetafileWriter() = default;
+
+void SequenceMetafileWriter::setField(const std::string& name, const std::string& value)
+{
+  checkField(name, value);
+  const bool isOwn = std::find(OwnFields.begin(), OwnFields.end(), name) != OwnFields.end();
+  if (isOwn || name.compare(0, 9, "Seq_Frame") == 0)
+  {
+    throw std::invalid_argument("sequence metafile: the field " + inQuotes(name) + " is written by the writer itself");
+  }
+  options_.fields[name] = value;
+}
 
 void SequenceMetafileWriter::append(const SequenceFrame& frame, const cv::Mat& image)
 {

@@ -35,11 +35,15 @@ struct SequenceMetafileWriterOptions
 class SequenceMetafileWriter
 {
 public:
-  /// @throws FileError where the folder cannot be written to
+  /// @throws FileError where the folder cannot be written to; std::invalid_argument for a field that is the writer's own, or no
+  /// field
   explicit SequenceMetafileWriter(const std::filesystem::path& path, const SequenceMetafileWriterOptions& options = {});
   ~SequenceMetafileWriter();
   SequenceMetafileWriter(const SequenceMetafileWriter&) = delete;
   SequenceMetafileWriter& operator=(const SequenceMetafileWriter&) = delete;
+
+  /// A field of the file as a whole that is known only later, until close(). @throws std::invalid_argument as the constructor does
+  void setField(const std::string& name, const std::string& value);
 
   /// Adds a frame.
   /// @param frame its fields; names must not hold blanks, '=' or line ends, values no line ends

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MarkedPicture.h"
 
+#include "EightBitImage.h"
 #include "NumberWords.h"
 
 #include <opencv2/imgproc.hpp>
@@ -35,12 +36,13 @@ void drawCross(cv::Mat& picture, const Eigen::Vector2d& at, double arm, const cv
 
 cv::Mat toBgr8(const cv::Mat& image)
 {
+  const cv::Mat eight = toEightBit(image);
   cv::Mat picture;
-  image.convertTo(picture, CV_8U, image.depth() == CV_16U ? 1.0 / 257 : 1.0);
-  if (picture.channels() != 3)
+  if (eight.channels() == 3)
   {
-    cv::cvtColor(picture, picture, picture.channels() == 1 ? cv::COLOR_GRAY2BGR : cv::COLOR_BGRA2BGR);
+    return eight.clone();  // to be drawn into
   }
+  cv::cvtColor(eight, picture, eight.channels() == 1 ? cv::COLOR_GRAY2BGR : cv::COLOR_BGRA2BGR);
   return picture;
 }
 

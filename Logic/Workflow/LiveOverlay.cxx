@@ -110,9 +110,7 @@ LiveOverlayPose LiveOverlay::at(double frameSec)
   }
   placedSec_ = placed ? timeSec : placedSec_;
   const std::vector<ToolSight> tools = { { options_.phantomName, phantomSeenSec_ }, { options_.markerName, markerSeenSec_ } };
-  // Before the first placement there is a sentence of its own.
-  const PoseAge age =
-    placedSec_ ? judgePoseAge(tools, placedSec_, timeSec, options_.age) : judgePoseAge(tools, timeSec, options_.age);
+  const PoseAge age = judgePoseAge(tools, placedSec_, timeSec, options_.age);
   result.status = age.status;
   result.message = age.message;
   result.delaySec = delaySec_;

@@ -7,6 +7,14 @@
 namespace handeye
 {
 
+Eigen::Isometry3d toStylusTipToCamera(const Eigen::Isometry3d& markerToCamera, const Eigen::Isometry3d& markerToTracker,
+  const Eigen::Isometry3d& stylusToTracker, const Eigen::Isometry3d& stylusTipToStylus)
+{
+  const Eigen::Isometry3d trackerToCamera = markerToCamera * markerToTracker.inverse();
+  const Eigen::Isometry3d stylusToCamera = trackerToCamera * stylusToTracker;
+  return stylusToCamera * stylusTipToStylus;
+}
+
 Eigen::Isometry3d toModelToCamera(
   const OverlayTransforms& transforms, const Eigen::Isometry3d& markerToTracker, const Eigen::Isometry3d& phantomToTracker)
 {

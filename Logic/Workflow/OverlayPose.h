@@ -24,6 +24,10 @@ struct OverlayTransforms
 Eigen::Isometry3d toModelToCamera(
   const OverlayTransforms& transforms, const Eigen::Isometry3d& markerToTracker, const Eigen::Isometry3d& phantomToTracker);
 
+/// stylusTipToCamera = markerToCamera * inverse(markerToTracker) * stylusToTracker * stylusTipToStylus, mm.
+Eigen::Isometry3d toStylusTipToCamera(const Eigen::Isometry3d& markerToCamera, const Eigen::Isometry3d& markerToTracker,
+  const Eigen::Isometry3d& stylusToTracker, const Eigen::Isometry3d& stylusTipToStylus);
+
 /// Where the model is in one frame of a recording, or why that is not known.
 struct OverlayPose
 {

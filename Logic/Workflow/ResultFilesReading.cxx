@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CalibratedEye.h"
 #include "CameraFile.h"
 #include "FileError.h"
+#include "HandEyePrediction.h"
 #include "ResultFiles.h"
 #include "RigidTransform.h"
 
@@ -150,6 +152,24 @@ std::optional<Eigen::Matrix<double, 6, 6>> readCalibrationCovariance(const Path&
   return value.is_null() ? std::nullopt : std::optional(readCovariance<6>(path, value, key));
 }
 
+std::optional<Eigen::Matrix<double, 6, 6>> readRightCalibrationCovariance(const Path& path)
+{
+  const json object = readResult(path, "markerToRightCamera");
+  if (const json own = object.value("right", json()); own.is_object())
+  {
+    const json value = own.value("covariance", json());
+    return value.is_null() ? std::nullopt : std::optional(readCovariance<6>(path, value, "right.covariance"));
+  }
+  const std::optional<Eigen::Matrix<double, 6, 6>> covariance = readCalibrationCovariance(path);
+  if (!covariance)
+  {
+    return std::nullopt;
+  }
+  const Eigen::Isometry3d markerToRightCamera = readTransform(path, object, "markerToRightCamera");
+  const Eigen::Isometry3d leftToRight = markerToRightCamera * readTransform(path, object, "markerToCamera").inverse();
+  return poseCovarianceIn(leftToRight, *covariance);
+}
+
 std::optional<Eigen::Isometry3d> readStylusTipFrame(const Path& path)
 {
   const json object = readResult(path, "tip_Stylus_Mm");
@@ -160,6 +180,17 @@ std::optional<Eigen::Isometry3d> readMarkerToRightCamera(const Path& path)
 {
   const json object = readResult(path, "markerToCamera");
   return object.contains("markerToRightCamera") ? std::optional(readTransform(path, object, "markerToRightCamera")) : std::nullopt;
+}
+
+std::optional<CalibratedEye> readRightEye(const Path& path)
+{
+  const std::optional<Eigen::Isometry3d> markerToRightCamera = readMarkerToRightCamera(path);
+  const std::optional<CameraModel> camera = io::readCameraFile(path).rightCamera;
+  if (!markerToRightCamera || !camera)
+  {
+    return std::nullopt;
+  }
+  return CalibratedEye{ *camera, *markerToRightCamera, readRightCalibrationCovariance(path) };
 }
 
 json readStylus(const Path& path)

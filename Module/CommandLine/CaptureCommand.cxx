@@ -81,7 +81,7 @@ class RecordingBeside
 {
 public:
   RecordingBeside(const CaptureArguments& arguments, const CommandOutput& output)
-    : recorder_(arguments.record, arguments.poses, arguments.sources.pairing.latencySec)
+    : recorder_(arguments.record, arguments.poses)
     , output_(output)
   {
   }

@@ -139,7 +139,9 @@ void addOutputOptions(CLI::App& command, OverlayArguments& arguments)
   command.add_flag("--smooth", arguments.smooth, "Take the tracker's jitter out of the model's pose; the delay is reported");
   CLI::Option* right =
     command.add_option("--right", arguments.right, "The right eye's images, with the same tracking")->type_name("RECORDING");
-  command.add_option("--right-camera", arguments.rightCamera, "The right eye's lens")->type_name("CAMERA")->needs(right);
+  command.add_option("--right-camera", arguments.rightCamera, "The right eye's lens, if not that of the calibration")
+    ->type_name("CAMERA")
+    ->needs(right);
   std::vector<std::string> words;
   for (const auto& layout : layouts())
   {

@@ -5,6 +5,7 @@
 #include "CameraFile.h"
 #include "CommonOptions.h"
 #include "EigenVtk.h"
+#include "EightBitImage.h"
 #include "FileError.h"
 #include "ImageFile.h"
 #include "MeshReader.h"
@@ -23,13 +24,6 @@ namespace handeye::cli
 
 namespace
 {
-
-cv::Mat toEightBit(const cv::Mat& image)
-{
-  cv::Mat eight;
-  image.convertTo(eight, CV_8U, image.depth() == CV_16U ? 1.0 / 257 : 1.0);
-  return eight;
-}
 
 io::SequenceMetafileWriterOptions transformsOnly()
 {
@@ -69,11 +63,11 @@ void setLook(const OverlayArguments& arguments, vtkHandEyeOverlayPipeline* pipel
 }  // namespace
 
 OverlayEye::OverlayEye(const OverlayArguments& arguments, const StoredCalibration& stored, const io::Recording& recording,
-  const CameraModel& camera, const Eigen::Isometry3d& markerToCamera, vtkPolyData* model, vtkHandEyeOverlayPipeline* pipeline)
+  const CalibratedEye& eye, vtkPolyData* model, vtkHandEyeOverlayPipeline* pipeline)
   : arguments_(arguments)
   , recording_(recording)
-  , camera_(cameraForRecording(camera, recording))
-  , transformsOfRig_{ markerToCamera, readPhantomRegistration(arguments.registration) }
+  , camera_(cameraForRecording(eye.camera, recording))
+  , transformsOfRig_{ eye.markerToCamera, readPhantomRegistration(arguments.registration) }
   , tools_(stored.tools)
   , latencySec_(chooseLatency(arguments.latencySec, stored.tools.latencySec, arguments.output))
   , model_(model)
@@ -86,7 +80,7 @@ OverlayEye::OverlayEye(const OverlayArguments& arguments, const StoredCalibratio
   recording.requireTransform(tools_.markerToTracker);
   pipeline->SetCameraModel(camera_);
   pipeline->SetModel(model);
-  pipeline->SetCalibrationCovariance(readCalibrationCovariance(arguments.calibration));
+  pipeline->SetCalibrationCovariance(eye.covariance);
   setLook(arguments, pipeline);
   if (arguments.stylus.empty())
   {
@@ -119,7 +113,7 @@ std::optional<Eigen::Isometry3d> OverlayEye::fadedPose(const OverlayPose& pose, 
   look(arguments_.phantomTransform, phantomSeenSec_);
   placedSec_ = pose.isUsable() ? timeSec : placedSec_;
   const std::vector<ToolSight> tools = { { "phantom", phantomSeenSec_ }, { "camera's marker", markerSeenSec_ } };
-  const PoseAge age = placedSec_ ? judgePoseAge(tools, placedSec_, timeSec) : judgePoseAge(tools, timeSec);
+  const PoseAge age = judgePoseAge(tools, placedSec_, timeSec);
   // A model that was never placed (the tools were seen, but never together) is not there to fade.
   const bool shown = age.isUsable() && (pose.isUsable() || lastModelToCamera_);
   pipeline_->SetFade(age.opacity);
@@ -142,9 +136,8 @@ void OverlayEye::setStylus(int frame)
   pipeline_->SetStylusTipToCamera(nullptr);
   if (marker.isUsable() && stylus.isUsable())
   {
-    const Eigen::Isometry3d trackerToCamera = transformsOfRig_.markerToCamera * marker.transform.inverse();
-    const Eigen::Isometry3d stylusToCamera = trackerToCamera * stylus.transform;
-    transforms_["StylusTipToCamera"] = stylusToCamera * *stylusTipToStylus_;
+    transforms_["StylusTipToCamera"] =
+      toStylusTipToCamera(transformsOfRig_.markerToCamera, marker.transform, stylus.transform, *stylusTipToStylus_);
     pipeline_->SetStylusTipToCamera(toVtk(*transforms_["StylusTipToCamera"]));
   }
 }
@@ -216,7 +209,8 @@ OverlayWriter::OverlayWriter(const OverlayArguments& arguments, const StoredCali
 {
   registerOffscreenRendering();
   vtkHandEyeOverlayPipeline* left = arguments.isStereo() ? stereo_->GetLeft() : pipeline_.Get();
-  leftEye_ = std::make_unique<OverlayEye>(arguments, stored, recording, stored.camera, stored.markerToCamera, model_, left);
+  leftEye_ = std::make_unique<OverlayEye>(arguments, stored, recording,
+    CalibratedEye{ stored.camera, stored.markerToCamera, readCalibrationCovariance(arguments.calibration) }, model_, left);
   if (arguments.isStereo())
   {
     setUpRight(stored);
@@ -239,18 +233,20 @@ void OverlayWriter::setUpRight(const StoredCalibration& stored)
   {
     throw io::FileError(arguments_.calibration, "\"markerToRightCamera\": the calibration is of one camera, not of a stereo rig");
   }
-  if (arguments_.rightCamera.empty())
-  {
-    throw CLI::RequiredError("--right-camera");
-  }
   if (right_->frameCount() != recording_.frameCount())
   {
     throw io::FileError(arguments_.right,
       "the right eye has " + std::to_string(right_->frameCount()) + " frames, the left one " +
         std::to_string(recording_.frameCount()));
   }
-  const CameraModel camera = io::readCameraFile(arguments_.rightCamera).camera;
-  rightEye_ = std::make_unique<OverlayEye>(arguments_, stored, *right_, camera, *markerToRightCamera, model_, stereo_->GetRight());
+  const std::optional<CameraModel> camera = arguments_.rightCamera.empty() ? io::readCameraFile(arguments_.calibration).rightCamera
+                                                                           : io::readCameraFile(arguments_.rightCamera).camera;
+  if (!camera)
+  {
+    throw CLI::ValidationError("--right-camera", "the calibration does not hold the right eye's lens, a camera file is expected");
+  }
+  const CalibratedEye eye{ *camera, *markerToRightCamera, readRightCalibrationCovariance(arguments_.calibration) };
+  rightEye_ = std::make_unique<OverlayEye>(arguments_, stored, *right_, eye, model_, stereo_->GetRight());
   stereo_->SetLayout(stereoLayoutOf(arguments_.stereo));
   stereo_->SetSwapped(arguments_.swapped);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "CalibratedEye.h"
 #include "OverlayArguments.h"
 #include "OverlayPose.h"
 #include "OverlayRecorder.h"
@@ -29,7 +30,7 @@ class OverlayEye
 {
 public:
   OverlayEye(const OverlayArguments& arguments, const StoredCalibration& stored, const io::Recording& recording,
-    const CameraModel& camera, const Eigen::Isometry3d& markerToCamera, vtkPolyData* model, vtkHandEyeOverlayPipeline* pipeline);
+    const CalibratedEye& eye, vtkPolyData* model, vtkHandEyeOverlayPipeline* pipeline);
 
   /// Gives the pipeline all that it needs for a frame.
   /// @param timeSec of the frame

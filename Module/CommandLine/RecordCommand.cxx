@@ -48,7 +48,7 @@ int runRecord(RecordArguments& arguments)
   {
     throw CLI::ValidationError("record", "-o FILE or --poses FILE is expected");
   }
-  devices::StreamRecorder recorder(arguments.output.file, arguments.poses, arguments.sources.pairing.latencySec);
+  devices::StreamRecorder recorder(arguments.output.file, arguments.poses);
   arguments.sources.start();
   catchStopSignals();
   devices::FramePairing pairing(arguments.sources.pairing);

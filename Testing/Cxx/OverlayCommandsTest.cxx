@@ -9,7 +9,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
+#include <cmath>
 #include <fstream>
+#include <utility>
 
 namespace
 {
@@ -177,6 +179,41 @@ TEST_F(OverlayCommands, TwoEyes_ShareAPicture)
   }
   const CommandResult noLens = overlay({ "--right", file("recording") }, "nothing");
   EXPECT_EQ(noLens.exitCode, 2) << noLens.err;
+}
+
+TEST_F(OverlayCommands, RightEyesHalo_IsOfTheRightEye)
+{
+  // All that is uncertain is a turn about the left eye's axis; the right eye is 25 mm beside it and has the same lens, without
+  // distortion.
+  json calibration = json::parse(handeye::testing::readText(file("calibration.json")));
+  for (std::size_t i = 0; i < 6; ++i)
+  {
+    calibration["covariance"][i][i] = i == 2 ? 1e-4 : 0.0;
+  }
+  calibration["camera"]["distortionCoefficients"] = { 0, 0, 0, 0 };
+  calibration["rightCamera"] = calibration["camera"];
+  calibration["markerToRightCamera"][0][3] = calibration["markerToCamera"][0][3].get<double>() - 25;
+  const auto errorsPx = [&](const std::string& out)
+  {
+    write("calibration.json", calibration.dump());
+    const CommandResult result = overlay({ "--right", file("recording") }, out);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    const json row = result.json().at("frames").at(0);
+    return std::pair(row.at("predictedErrorPx").get<double>(), row.at("right").at("predictedErrorPx").get<double>());
+  };
+  const auto [left, right] = errorsPx("together");
+  // Both eyes see the same motion of the same point at the same depth.
+  EXPECT_GT(left, 0.2);
+  EXPECT_NEAR(right / left, 1, 0.02);
+  // A turn about the right eye's own axis is another one.
+  calibration["right"] = { { "status", "ok" }, { "covariance", calibration["covariance"] } };
+  const double own = errorsPx("apart").second;
+  EXPECT_GT(std::abs(own / left - 1), 0.1);
+  for (json& row : calibration["right"]["covariance"])
+  {
+    row[2] = 9 * row[2].get<double>();
+  }
+  EXPECT_NEAR(errorsPx("wider").second / own, 3, 1e-6);
 }
 
 TEST_F(OverlayCommands, WrongUse_IsSaid)

@@ -62,6 +62,20 @@ TEST(OverlayPose, KnownPoint_IsTakenWhereItBelongs)
   EXPECT_TRUE(pointNear(modelToCamera * point_Model, scene.toCamera(point_Model), 1e-9));
 }
 
+TEST(OverlayPose, StylusTip_IsTakenWhereItBelongs)
+{
+  const Scene scene;
+  const Eigen::Isometry3d stylusToTracker = makeRigid({ 1.2, 0.1, -0.6 }, { 15, 60, -1300 });
+  const Eigen::Isometry3d stylusTipToStylus = makeRigid({ 0.2, 0.3, 0 }, { 1, -2, -158 });
+  const Eigen::Isometry3d stylusTipToCamera =
+    toStylusTipToCamera(scene.transforms.markerToCamera, scene.markerToTracker, stylusToTracker, stylusTipToStylus);
+  const Eigen::Vector3d point_StylusTip(3, 4, 25);
+  const Eigen::Vector3d point_Stylus = stylusTipToStylus * point_StylusTip;
+  const Eigen::Vector3d point_Tracker = stylusToTracker * point_Stylus;
+  const Eigen::Vector3d point_Marker = scene.markerToTracker.inverse() * point_Tracker;
+  EXPECT_TRUE(pointNear(stylusTipToCamera * point_StylusTip, scene.transforms.markerToCamera * point_Marker, 1e-9));
+}
+
 TEST(OverlayPose, TrackedFrame_HasAPose)
 {
   const io::test::TemporaryFolder folder;

@@ -67,6 +67,30 @@ TEST(PoseAge, PoseFromTheFuture_IsCurrent)
   EXPECT_EQ(judgePoseAge({ { "phantom", 10.5 } }, 10.0).status, PoseAge::Status::Current);
 }
 
+TEST(PoseAge, HiddenInTurn_IsAsOldAsTheLastTimeTogether)
+{
+  // Each was seen a moment ago, but they were last seen at once 0.4 s ago: the model's place is that old.
+  const std::vector<ToolSight> tools = { { "phantom", 9.95 }, { "camera marker", 10.0 } };
+  const PoseAge age = judgePoseAge(tools, 9.6, 10.0);
+  EXPECT_EQ(age.status, PoseAge::Status::Fading);
+  EXPECT_NEAR(*age.ageSec, 0.4, 1e-12);
+  EXPECT_NE(age.message.find("phantom and camera marker at once"), std::string::npos) << age.message;
+  EXPECT_EQ(judgePoseAge(tools, 9.9, 10.0).status, PoseAge::Status::Current);
+  EXPECT_EQ(judgePoseAge(tools, 9.0, 10.0).status, PoseAge::Status::Gone);
+}
+
+TEST(PoseAge, NeverTogetherYet_EachToolDecides)
+{
+  const std::vector<ToolSight> seen = { { "phantom", 9.7 }, { "camera marker", 10.0 } };
+  const PoseAge age = judgePoseAge(seen, std::nullopt, 10.0), each = judgePoseAge(seen, 10.0);
+  EXPECT_EQ(age.status, PoseAge::Status::Fading);
+  EXPECT_EQ(age.opacity, each.opacity);
+  EXPECT_EQ(age.message, each.message);
+  const PoseAge never = judgePoseAge({ { "phantom", {} }, { "camera marker", 10.0 } }, std::nullopt, 10.0);
+  EXPECT_EQ(never.status, PoseAge::Status::NeverSeen);
+  EXPECT_EQ(never.message, "the phantom has not been seen yet");
+}
+
 TEST(PoseAge, Nonsense_IsRefused)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ResultFiles.h"
 
+#include "CalibratedEye.h"
 #include "CaptureSimulation.h"
+#include "FileError.h"
 #include "GeometryMatchers.h"
+#include "HandEyePrediction.h"
 #include "PivotSimulation.h"
 
 #include <gtest/gtest.h>
@@ -184,6 +187,54 @@ TEST(ResultFiles, StereoCalibration_HasBothTransformsOrNone)
   EXPECT_EQ(object["status"], "too_few_samples");
   EXPECT_FALSE(object.contains("markerToCamera")) << "half a stereo head is no result";
   EXPECT_FALSE(object.contains("markerToRightCamera"));
+}
+
+TEST(ResultFiles, RightEyesCovariance_IsItsOwn)
+{
+  const TemporaryFolder folder;
+  const SimulatedSession left(10);
+  SimulatedSession right = left;
+  const Eigen::Isometry3d leftToRight = makeRigid({ 0, 0.3, 0 }, { -60, 0, 5 });
+  for (Eigen::Vector3d& ball : right.balls_Camera)
+  {
+    ball = leftToRight * ball;
+  }
+  right.markerToCamera = leftToRight * left.markerToCamera;
+  const EyeCapture leftCapture{ left.camera, left.captured(0.2, 0.1) }, rightCapture{ right.camera, right.captured(0.2, 0.1, 4) };
+
+  // One registration: a point's error is the same whichever eye it is seen from.
+  CalibrationStepResult together = calibrateStereoCapture(leftCapture, rightCapture, leftToRight);
+  together.ballRadiusMm = left.ballRadiusMm;
+  ASSERT_TRUE(together.isUsable());
+  writeJson(folder.path() / "together.json", calibrationJson(together));
+  const auto covariance = readRightCalibrationCovariance(folder.path() / "together.json");
+  ASSERT_TRUE(covariance.has_value());
+  const Eigen::Vector3d point_Left(20, -10, 250);
+  const Eigen::Matrix3d seen_Left = predictTargetCovariance(together.calibration.covariance, point_Left);
+  const Eigen::Matrix3d seen_Right = predictTargetCovariance(*covariance, leftToRight * point_Left);
+  const Eigen::Matrix3d turned = leftToRight.linear() * seen_Left;
+  EXPECT_LT((seen_Right - turned * leftToRight.linear().transpose()).norm(), 1e-9 * seen_Left.norm());
+  EXPECT_GT((*covariance - together.calibration.covariance).norm(), 0.05 * covariance->norm());
+
+  // Two: the right eye's own.
+  CalibrationStepResult apart = calibrateStereoCapture(leftCapture, rightCapture, std::nullopt);
+  ASSERT_TRUE(apart.isUsable());
+  json object = calibrationJson(apart);
+  writeJson(folder.path() / "apart.json", object);
+  EXPECT_EQ(readRightCalibrationCovariance(folder.path() / "apart.json"), apart.right->calibration->covariance);
+  object["right"].erase("covariance");
+  writeJson(folder.path() / "unknown.json", object);
+  EXPECT_FALSE(readRightCalibrationCovariance(folder.path() / "unknown.json").has_value()) << "not the left one's instead";
+  const std::optional<CalibratedEye> eye = readRightEye(folder.path() / "apart.json");
+  ASSERT_TRUE(eye.has_value());
+  EXPECT_EQ(eye->camera.cameraMatrix(), right.camera.cameraMatrix());
+  EXPECT_EQ(eye->covariance, apart.right->calibration->covariance);
+  EXPECT_TRUE(rigid3dNear(eye->markerToCamera, apart.right->markerToRightCamera, 1e-14, 1e-12));
+
+  CalibrationStepResult alone = calibrate(left, left.captured(0.2, 0.1));
+  writeJson(folder.path() / "alone.json", calibrationJson(alone));
+  EXPECT_THROW(static_cast<void>(readRightCalibrationCovariance(folder.path() / "alone.json")), io::FileError);
+  EXPECT_FALSE(readRightEye(folder.path() / "alone.json").has_value());
 }
 
 TEST(ResultFiles, Validation_HasTheKeysOfTheContract)

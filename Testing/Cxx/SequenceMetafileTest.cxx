@@ -376,6 +376,24 @@ TEST(SequenceMetafileWriter, WrongInput_ThrowsInvalidArgument)
   EXPECT_THROW(SequenceMetafileWriter(folder.path() / "y.mha", options), std::invalid_argument);
 }
 
+TEST(SequenceMetafileWriter, FieldThatIsKnownLate_IsInTheFile)
+{
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "late.igs.mha";
+  SequenceMetafileWriter writer(path, { false, true, { { "Early", "1" } } });
+  writer.append(SequenceFrame());
+  writer.setField("Late", "2");
+  writer.setField("Early", "3");
+  EXPECT_THROW(writer.setField("DimSize", "1 1 1"), std::invalid_argument);
+  EXPECT_THROW(writer.setField("Seq_Frame0000_Status", "OK"), std::invalid_argument);
+  EXPECT_THROW(writer.setField("a b", "1"), std::invalid_argument);
+  EXPECT_THROW(SequenceMetafileWriter(path, { false, true, { { "DimSize", "1 1 1" } } }), std::invalid_argument);
+  writer.close();
+  const SequenceMetafile file = SequenceMetafile::open(path);
+  EXPECT_EQ(file.fields().at("Late"), "2");
+  EXPECT_EQ(file.fields().at("Early"), "3");
+}
+
 TEST(SequenceMetafileWriter, NoFrames_ReadsBackWithAWarning)
 {
   const TemporaryFolder folder;

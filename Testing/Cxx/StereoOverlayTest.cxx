@@ -10,6 +10,8 @@
 #include <vtkRendererCollection.h>
 
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace
 {
@@ -163,6 +165,31 @@ TEST(StereoOverlay, Squeezed_FillsHalvesOfTheWindow)
   EXPECT_LT(cv::norm(right, eyePicture(true), cv::NORM_L1) / double(3 * right.total()), 2);
   stereo->AttachTo(nullptr);
   EXPECT_EQ(window->GetRenderers()->GetNumberOfItems(), 0);
+}
+
+TEST(StereoOverlay, ReadShown_IsThePictureOfTheLayout)
+{
+  const std::vector<std::pair<Layout, cv::Size>> windows{ { Layout::SideBySide, { 4 * FieldWidth, 2 * FieldHeight + 30 } },
+    { Layout::TopBottom, { 2 * FieldWidth + 10, 4 * FieldHeight } }, { Layout::Anaglyph, { 2 * FieldWidth + 10, 2 * FieldHeight } },
+    { Layout::Interlaced, { FieldWidth, FieldHeight } } };
+  for (const bool swapped : { false, true })
+  {
+    for (const auto& [layout, size] : windows)
+    {
+      const Stereo stereo = fieldStereo(layout);
+      stereo->SetSwapped(swapped);
+      vtkNew<vtkRenderWindow> window;
+      window->SetMultiSamples(0);
+      stereo->AttachTo(window);
+      cv::Mat shown;
+      EXPECT_FALSE(stereo->ReadShown(shown));
+      static_cast<void>(renderedWindow(window, size.width, size.height));
+      ASSERT_TRUE(stereo->ReadShown(shown));
+      const cv::Mat picture = pictureOf(stereo);
+      ASSERT_EQ(shown.size(), picture.size()) << int(layout);
+      EXPECT_LE(differentPixels(shown, picture), 60) << int(layout) << swapped;
+    }
+  }
 }
 
 TEST(StereoOverlay, Keys_ChangeLayoutAndEyes)

@@ -53,6 +53,7 @@ private slots:
     QCOMPARE(namesIn(list.choiceBox(Role::Stylus)),
       (QStringList{ QStringLiteral("(choose)"), QStringLiteral("StylusToTracker"), QStringLiteral("MarkerToTracker") }));
     QCOMPARE(namesIn(list.choiceBox(Role::Video)), (QStringList{ QStringLiteral("(choose)"), QStringLiteral("Image") }));
+    QCOMPARE(namesIn(list.choiceBox(Role::RightVideo)), (QStringList{ QStringLiteral("(none)"), QStringLiteral("Image") }));
     QCOMPARE(namesIn(list.choiceBox(Role::Phantom))[0], QStringLiteral("(none)"));
   }
 

@@ -82,8 +82,10 @@ TEST(StreamRecorder, ReadsBackImagesAndPoses)
 TEST(StreamRecorder, LatencyOfThePairing_IsWritten)
 {
   const TemporaryFolder folder;
-  StreamRecorder recorder(folder.path() / "video.igs.mha", folder.path() / "poses.igs.mha", -0.04);
-  recorder.add(frameAt(0));
+  StreamRecorder recorder(folder.path() / "video.igs.mha", folder.path() / "poses.igs.mha");
+  PairedFrame frame = frameAt(0);
+  frame.latencySec = -0.04;
+  recorder.add(frame);
   recorder.add(poseAt(100, "StylusToTracker", true));
   ASSERT_TRUE(recorder.close()) << recorder.error();
   EXPECT_EQ(Recording::open(folder.path() / "video.igs.mha").appliedLatencySec(), -0.04);
