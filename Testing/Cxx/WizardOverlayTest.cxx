@@ -126,7 +126,7 @@ bool isSame(const QImage& a, const QImage& b)
       const QColor one = a.pixelColor(x, y), other = b.pixelColor(x, y);
       const int most =
         std::max({ std::abs(one.red() - other.red()), std::abs(one.green() - other.green()), std::abs(one.blue() - other.blue()) });
-      different += most > 24 ? 1 : 0;
+      different += most > 6 ? 1 : 0;
     }
   }
   return a.size() == b.size() && different < 20;
