@@ -64,7 +64,7 @@ public:
   void setStereo(const OverlayStereo& stereo);
   const OverlayStereo& stereo() const { return stereo_; }
 
-  /// A video of what is shown, in the session's folder. @param ending ".mp4", ".ogv" or ".avi"
+  /// A video of what is shown, in the session's folder. @param ending ".mp4" or ".avi"
   void startRecording(const QString& ending);
   void stopRecording() { recording_->stop(); }
   const OverlayRecordingTask& recording() const { return *recording_; }

@@ -44,7 +44,7 @@ class OverlayRecordingTask : public QObject
 public:
   explicit OverlayRecordingTask(QObject* parent = nullptr);
 
-  /// Begins a video in this folder (of the session; empty: none is open), which is made. @param ending ".mp4", ".ogv" or ".avi"
+  /// Begins a video in this folder (of the session; empty: none is open), which is made. @param ending ".mp4" or ".avi"
   /// @return false where that is not possible:
   ///   the state says why
   bool start(const QString& folder, const QString& ending);

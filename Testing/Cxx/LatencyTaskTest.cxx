@@ -109,5 +109,5 @@ private:
   std::unique_ptr<QSignalSpy> refusals_;
 };
 
-QTEST_GUILESS_MAIN(LatencyTaskTest)
+QTEST_MAIN(LatencyTaskTest)
 #include "LatencyTaskTest.moc"

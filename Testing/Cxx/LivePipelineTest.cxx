@@ -103,5 +103,5 @@ private:
   std::atomic<int> seen_{ 0 };
 };
 
-QTEST_GUILESS_MAIN(LivePipelineTest)
+QTEST_MAIN(LivePipelineTest)
 #include "LivePipelineTest.moc"
