@@ -252,8 +252,7 @@ QString ErrorDistancePlot::Private::wordsAt(const QPointF& place) const
       {
         nearestPx = distancePx;
         words = ErrorDistancePlot::tr("%1: %2 at %3")
-                  .arg(one.name, withUnit(point.y(), 2, ErrorDistancePlot::tr("px")),
-                    withUnit(point.x(), 0, axes.xUnit));
+                  .arg(one.name, withUnit(point.y(), 2, ErrorDistancePlot::tr("px")), withUnit(point.x(), 0, axes.xUnit));
       }
     }
   }

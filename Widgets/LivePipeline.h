@@ -100,7 +100,7 @@ private:
   QElapsedTimer sinceStages_;
 
   std::mutex mutex_;
-  std::shared_ptr<LiveView> pending_;  ///< on its way to the window
+  std::shared_ptr<LiveView> pending_;       ///< on its way to the window
   std::deque<devices::PairedFrame> right_;  ///< the newest few
 };
 
