@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BallColor.h"
 
-#include "EightBitImage.h"
-
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -65,7 +63,7 @@ const cv::Mat& toEightBits(const cv::Mat& image, cv::Mat& buffer)
   {
     return image;
   }
-  buffer = toEightBit(image);
+  image.convertTo(buffer, CV_8U, 1.0 / 257);  // into the buffer that the caller keeps, unlike toEightBit()
   return buffer;
 }
 
