@@ -50,14 +50,16 @@ void prepareNoise(const StudyOptions& options, const StudyPictures* pictures, St
     throw std::runtime_error("ball or board are not found in the rendered pictures of the " + result.camera.name);
   }
   result.noise = { options.trackingSigmaMm, options.trackingSigmaDeg * double(EIGEN_PI) / 180, result.measured.ballSigmaPx,
-    result.measured.cornerSigmaPx, options.lensFocalShare, options.lensCenterPx };
+    options.cornerSigmaPx < 0 ? result.measured.cornerSigmaPx : options.cornerSigmaPx, options.lensFocalShare, options.lensCenterPx,
+    options.boardScaleShare };
 }
 
 }  // namespace
 
 void StudyOptions::check() const
 {
-  if (repetitions < 1 || jobs < 1 || noisePictures < 4 || subsetRepetitions < 0 || renderedRepetitions < 0)
+  if (repetitions < 1 || jobs < 1 || noisePictures < 4 || subsetRepetitions < 0 || renderedRepetitions < 0 || tiltRepetitions < 0 ||
+    conditionRepetitions < 0)
   {
     throw std::invalid_argument("a study needs at least one repetition, one job and four pictures for the noise");
   }
@@ -67,9 +69,10 @@ void StudyOptions::check() const
       "a repetition needs 6 balls, 3 views of the board, one validation sample and 50 pivot poses at least");
   }
   if (!(trackingSigmaMm >= 0) || !(trackingSigmaDeg >= 0) || !(branchAndBoundSec >= 0) ||
-    !(lensFocalShare >= 0 && lensFocalShare < 0.1) || !(lensCenterPx >= 0))
+    !(lensFocalShare >= 0 && lensFocalShare < 0.1) || !(lensCenterPx >= 0) || !(boardScaleShare >= 0 && boardScaleShare < 0.1))
   {
-    throw std::invalid_argument("noise and time limit must not be negative, and the focal length's error is below a tenth");
+    throw std::invalid_argument(
+      "noise and time limit must not be negative, and the errors of the focal length and of the board's size are below a tenth");
   }
   if (!(size.boardTiltDeg >= 1 && size.boardTiltDeg <= 70) || !(size.boardRollDeg >= 0 && size.boardRollDeg <= 180))
   {

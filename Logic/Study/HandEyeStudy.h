@@ -21,12 +21,15 @@ struct StudyOptions
   double trackingSigmaMm = 0.12;  ///< of every pose of every marker, per axis
   double trackingSigmaDeg = 0.025;
   double lensFocalShare =
-    0;                       ///< error of the lens that all methods are told, anew in each repetition: the focal length, as a share
-  double lensCenterPx = 0;   ///< and the principal point, px per axis
-  bool isNoiseFree = false;  ///< neither tracker nor features have noise: every method must find the truth
-  int noisePictures = 20;    ///< of ball and board each, from which a camera's feature noise is measured
+    0;                      ///< error of the lens that all methods are told, anew in each repetition: the focal length, as a share
+  double lensCenterPx = 0;  ///< and the principal point, px per axis
+  double boardScaleShare = 0;        ///< error of the size in which the board is printed, as a share, anew in each repetition
+  double cornerSigmaPx = -1;         ///< noise of the board's corners, px per axis; below 0: measured on pictures
+  bool isNoiseFree = false;          ///< neither tracker nor features have noise: every method must find the truth
+  int noisePictures = 20;            ///< of ball and board each, from which a camera's feature noise is measured
   int subsetRepetitions = 20;        ///< the first so many repetitions also give random subsets of 3 to 30 samples
   int tiltRepetitions = 20;          ///< of the first eye for each range of the board's directions; 0 leaves that out
+  int conditionRepetitions = 20;     ///< of the first eye for each of studyConditions(); 0 leaves that out
   int renderedRepetitions = 0;       ///< repetitions whose features are really found in rendered pictures, besides the others
   double branchAndBoundSec = 2;      ///< time limit of one; 0 leaves it out
   std::vector<std::string> cameras;  ///< names; all where empty
@@ -44,6 +47,13 @@ struct StudyTiltResult
   ComparisonResult comparison, truth;
 };
 
+/// What was found under one of studyConditions().
+struct StudyConditionResult
+{
+  std::string words;
+  ComparisonResult comparison, truth;
+};
+
 /// What was found for one camera. All repetitions and eyes are pooled.
 struct StudyCameraResult
 {
@@ -54,6 +64,7 @@ struct StudyCameraResult
   ComparisonResult truth;       ///< the same calibrations against the same balls without noise: the calibrations' own error
   Summary floorPx;              ///< what the validation shows of a perfect calibration: the noise of the validation alone
   std::vector<StudyTiltResult> byTilt;
+  std::vector<StudyConditionResult> byCondition;
   /// With features that were found in pictures; no methods where none were asked for.
   ComparisonResult rendered;
   int renderedEyes = 0;

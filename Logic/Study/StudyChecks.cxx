@@ -145,6 +145,24 @@ std::string reasonOfMaximum(const StudyCameraResult& result, const MethodResult&
     px(trueRival->errorPx.maximum) + ".";
 }
 
+/// What becomes of the two under the study's conditions; empty where they were not looked into.
+std::string conditionWords(const StudyCameraResult& result, const MethodResult& ours, const MethodResult& rival)
+{
+  std::string text;
+  for (const StudyConditionResult& condition : result.byCondition)
+  {
+    const MethodResult *trueOurs = find(condition.truth, ours.name), *trueRival = find(condition.truth, rival.name);
+    if (trueOurs != nullptr && trueRival != nullptr)
+    {
+      text += (text.empty() ? "" : "; ") + condition.words + ": " + fixedDigits(trueOurs->errorPx.mean, 2) + " and " +
+        px(trueRival->errorPx.mean);
+    }
+  }
+  return text.empty() ? text
+                      : " Print, corners and lens favour the board here. Own mean errors of " + ours.name + " and " + rival.name +
+      " by condition: " + text + ".";
+}
+
 /// The best methods by their own errors, so close that the sample decides?
 std::string reasonOfOwn(const MethodResult& ours, const MethodResult& rival)
 {
@@ -153,10 +171,11 @@ std::string reasonOfOwn(const MethodResult& ours, const MethodResult& rival)
     std::to_string(ours.errorPx.count) + " errors is that of a single calibration.";
 }
 
-std::string reasonOfMean(const StudyCameraResult& result, const MethodResult& rival)
+std::string reasonOfMean(const StudyCameraResult& result, const MethodResult& ours, const MethodResult& rival)
 {
-  return rival.name + " is not told apart, or better, with the noise of this study; a perfect calibration would show " +
-    px(result.floorPx.mean) + ".";
+  return "A perfect calibration would show " + px(result.floorPx.mean) +
+    ". A ball takes two tracked markers a sample and gives one point; a view of a board that stands still takes one and gives " +
+    std::to_string(result.camera.board.pointCount()) + "." + conditionWords(result, ours, rival);
 }
 
 std::string reasonOfTrackedBoard(const StudyCameraResult& result)
@@ -235,7 +254,7 @@ std::vector<StudyCheck> checkClaims(const StudyCameraResult& result)
     return checks;
   }
   StudyCheck mean = compare("lowest mean, as validated", result.comparison, *ours, meanOf);
-  mean.reason = mean.holds ? "" : reasonOfMean(result, *rivalsIn(result.comparison, *ours, meanOf).front());
+  mean.reason = mean.holds ? "" : reasonOfMean(result, *ours, *rivalsIn(result.comparison, *ours, meanOf).front());
   StudyCheck maximum = compare("lowest maximum, as validated", result.comparison, *ours, maximumOf);
   maximum.reason = maximum.holds ? "" : reasonOfMaximum(result, *ours, *rivalsIn(result.comparison, *ours, maximumOf).front());
   StudyCheck ownMean = compare("lowest mean of the calibrations' own errors", result.truth, *trueOurs, meanOf);

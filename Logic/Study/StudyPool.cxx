@@ -121,6 +121,16 @@ void addTilt(const StudyTask& task, std::vector<StudyTiltResult>& tilts)
   addCaptures(task.trueMethods, tilts.back().truth.methods);
 }
 
+void addCondition(const StudyTask& task, std::vector<StudyConditionResult>& conditions)
+{
+  if (conditions.empty() || conditions.back().words != task.condition)
+  {
+    conditions.push_back({ task.condition, {}, {} });
+  }
+  addCaptures(task.methods, conditions.back().comparison.methods);
+  addCaptures(task.trueMethods, conditions.back().truth.methods);
+}
+
 }  // namespace
 
 void poolTasks(const std::vector<StudyTask>& tasks, int camera, StudyCameraResult& result)
@@ -136,6 +146,11 @@ void poolTasks(const std::vector<StudyTask>& tasks, int camera, StudyCameraResul
     if (task.tiltDeg > 0)
     {
       addTilt(task, result.byTilt);
+      continue;
+    }
+    if (!task.condition.empty())
+    {
+      addCondition(task, result.byCondition);
       continue;
     }
     if (task.isRendered)
@@ -159,6 +174,11 @@ void poolTasks(const std::vector<StudyTask>& tasks, int camera, StudyCameraResul
   {
     finish(tilt.comparison);
     finish(tilt.truth);
+  }
+  for (StudyConditionResult& condition : result.byCondition)
+  {
+    finish(condition.comparison);
+    finish(condition.truth);
   }
 }
 

@@ -100,6 +100,55 @@ std::optional<report::Plot> errorByTilt(const StudyCameraResult& camera)
   return plot.series.empty() ? std::nullopt : std::make_optional(std::move(plot));
 }
 
+/// Mean as a validation shows it, and in brackets the calibrations' own; "none" without a result.
+std::string meansCell(const std::string& method, const ComparisonResult& comparison, const ComparisonResult& truth)
+{
+  for (std::size_t i = 0; i < comparison.methods.size(); ++i)
+  {
+    if (comparison.methods[i].name == method && comparison.methods[i].isUsable())
+    {
+      return fixedDigits(comparison.methods[i].errorPx.mean, 2) + " (" + fixedDigits(truth.methods[i].errorPx.mean, 2) + ")";
+    }
+  }
+  return "none";
+}
+
+/// The methods whose order is looked into: with a board, and `ml`.
+std::vector<std::string> comparedNames(const StudyCameraResult& camera)
+{
+  std::vector<std::string> names;
+  for (const MethodResult& method : camera.comparison.methods)
+  {
+    if (method.target == ComparedMethod::Target::Board || method.name == "ml")
+    {
+      names.push_back(method.name);
+    }
+  }
+  return names;
+}
+
+report::Table conditionsTable(const StudyCameraResult& camera)
+{
+  report::Table table;
+  table.caption =
+    "What the order depends on: mean projection error (px) as a validation shows it, and in brackets the calibrations' own, with "
+    "one thing changed at a time";
+  table.headings = { "condition" };
+  std::vector<std::string> names = comparedNames(camera);
+  names.erase(std::remove(names.begin(), names.end(), "branch-and-bound"), names.end());  // is not run here: it takes too long
+  table.headings.insert(table.headings.end(), names.begin(), names.end());
+  for (const StudyConditionResult& condition : camera.byCondition)
+  {
+    std::vector<std::string> row = { condition.words };
+    for (const std::string& name : names)
+    {
+      row.push_back(meansCell(name, condition.comparison, condition.truth));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
 report::Table tiltTable(const StudyCameraResult& camera)
 {
   report::Table table;
@@ -111,25 +160,12 @@ report::Table tiltTable(const StudyCameraResult& camera)
   {
     table.headings.push_back(fixedDigits(tilt.tiltDeg, 0));
   }
-  for (const MethodResult& method : camera.comparison.methods)
+  for (const std::string& name : comparedNames(camera))
   {
-    if (method.target != ComparedMethod::Target::Board && method.name != "ml")
-    {
-      continue;
-    }
-    std::vector<std::string> row = { method.name };
+    std::vector<std::string> row = { name };
     for (const StudyTiltResult& tilt : camera.byTilt)
     {
-      std::string cell = "none";
-      for (std::size_t i = 0; i < tilt.comparison.methods.size(); ++i)
-      {
-        const MethodResult& one = tilt.comparison.methods[i];
-        if (one.name == method.name && one.isUsable())
-        {
-          cell = fixedDigits(one.errorPx.mean, 2) + " (" + fixedDigits(tilt.truth.methods[i].errorPx.mean, 2) + ")";
-        }
-      }
-      row.push_back(cell);
+      row.push_back(meansCell(name, tilt.comparison, tilt.truth));
     }
     table.rows.push_back(std::move(row));
   }
@@ -179,6 +215,7 @@ report::Table setUpTable(const StudyResult& result)
 {
   report::Table table;
   table.caption = "The cameras. Noise of features: root mean square per axis, measured on rendered pictures with our detectors";
+  table.caption += result.options.cornerSigmaPx < 0 ? "" : "; that of the corners was given";
   table.headings = { "camera", "eyes", "image (px)", "fx (px)", "depths (mm)", "ball radius (mm)", "board", "marker from lens (mm)",
     "ball noise (px)", "corner noise (px)", "validation's own error (px)" };
   table.textColumns = 1;
@@ -205,6 +242,13 @@ std::string lensWords(const StudyOptions& options)
     " % of the focal length and " + fixedDigits(options.lensCenterPx, 1) + " px of the principal point per axis.";
 }
 
+std::string printWords(const StudyOptions& options)
+{
+  return options.boardScaleShare == 0 ? "its print, and its place on its own marker, are known exactly."
+                                      : "its print is off, anew in each repetition, by " +
+      fixedDigits(100 * options.boardScaleShare, 2) + " % of its size, its place on its own marker is known exactly.";
+}
+
 std::string noiseWords(const StudyResult& result)
 {
   const StudyOptions& options = result.options;
@@ -217,9 +261,8 @@ std::string noiseWords(const StudyResult& result)
                          : "Every pose of every marker has noise of " + fixedDigits(options.trackingSigmaMm, 3) + " mm and " +
           fixedDigits(options.trackingSigmaDeg, 3) + " degrees per axis, the same for ball and board. " + lensWords(options) +
           " The board is looked at from up to " + fixedDigits(options.size.boardTiltDeg, 0) +
-          " degrees off, the camera turned by up to " + fixedDigits(options.size.boardRollDeg, 0) +
-          " degrees to either side; its print, and its place on its own marker, are known exactly. The branch and bound had " +
-          significantDigits(options.branchAndBoundSec, 3) + " s a capture.");
+          " degrees off, the camera turned by up to " + fixedDigits(options.size.boardRollDeg, 0) + " degrees to either side; " +
+          printWords(options) + " The branch and bound had " + significantDigits(options.branchAndBoundSec, 3) + " s a capture.");
 }
 
 /// Pooled results have hundreds of captures: the median gap of the branch and bound says how far its proof was.
@@ -260,6 +303,10 @@ void addCamera(report::ReportDocument& document, const StudyCameraResult& camera
   if (!camera.byTilt.empty())
   {
     document.blocks.push_back(tiltTable(camera));
+  }
+  if (!camera.byCondition.empty())
+  {
+    document.blocks.push_back(conditionsTable(camera));
   }
   if (!camera.comparison.methods.empty() && !camera.comparison.methods.front().subsets.empty())
   {
@@ -383,6 +430,11 @@ nlohmann::json studyJson(const StudyResult& result)
     {
       one["byBoardTilt"].push_back({ { "tiltDeg", tilt.tiltDeg }, { "methods", summariesJson(tilt.comparison) },
         { "methodsAgainstTruth", summariesJson(tilt.truth) } });
+    }
+    for (const StudyConditionResult& condition : camera.byCondition)
+    {
+      one["byCondition"].push_back({ { "condition", condition.words }, { "methods", summariesJson(condition.comparison) },
+        { "methodsAgainstTruth", summariesJson(condition.truth) } });
     }
     if (camera.renderedEyes > 0)
     {

@@ -3,6 +3,7 @@
 #include "StudyTasks.h"
 
 #include "ComparedBoardMethods.h"
+#include "StudyConditions.h"
 
 #include <algorithm>
 #include <atomic>
@@ -78,14 +79,14 @@ private:
     }
   }
 
-  HandEyeCalibrationOptions ballOptions(const StudyCameraResult& camera, const StudyTrial& trial, bool isRendered) const
+  HandEyeCalibrationOptions ballOptions(const StudyTask& task, const StudyTrial& trial) const
   {
     HandEyeCalibrationOptions options;
     options.tipCovariance_Stylus = trial.tipCovariance_Stylus;
-    options.rejectOutliers = isRendered;  // projected features are never wrong, and the search for such is most of the time
+    options.rejectOutliers = task.isRendered;  // projected features are never wrong, and the search for such is most of the time
     if (!options_.isNoiseFree)
     {
-      options.segmentationSigmaPx = camera.noise.ballSigmaPx;
+      options.segmentationSigmaPx = task.noise.ballSigmaPx;
     }
     return options;
   }
@@ -99,10 +100,10 @@ private:
     return options;
   }
 
-  std::vector<MethodResult> compare(const StudyCameraResult& camera, const StudyTrial& trial, bool isRendered,
-    bool withBranchAndBound, const ComparisonOptions& options)
+  std::vector<MethodResult> compare(
+    const StudyTask& task, const StudyTrial& trial, bool withBranchAndBound, const ComparisonOptions& options)
   {
-    std::vector<ComparedMethod> methods = ballMethods({ trial.ball }, trial.lens, ballOptions(camera, trial, isRendered));
+    std::vector<ComparedMethod> methods = ballMethods({ trial.ball }, trial.lens, ballOptions(task, trial));
     const std::vector<ComparedMethod> classical = boardMethods({ trial.board }, trial.lens, boardOptions(withBranchAndBound));
     methods.insert(methods.end(), classical.begin(), classical.end());
     return compareMethods(methods, trial.validation, trial.lens, options).methods;
@@ -113,16 +114,10 @@ private:
     const StudyCameraResult& camera = cameras_[std::size_t(task.camera)];
     const StudyEye& eye = camera.camera.eyes[std::size_t(task.eye)];
     const StudyPictures* pictures = task.isRendered ? pictures_[std::size_t(task.camera)].get() : nullptr;
-    TrialSize size = options_.size;
-    if (task.tiltDeg > 0)
-    {
-      size.boardTiltDeg = task.tiltDeg;
-      size.boardRollDeg = task.tiltDeg * 4 / 3;
-    }
-    const StudyTrial trial = makeTrial(camera.camera, eye, camera.noise, size, task.seed, pictures);
+    const StudyTrial trial = makeTrial(camera.camera, eye, task.noise, task.size, task.seed, pictures);
     ComparisonOptions comparison;
     comparison.subsetRepetitions = comparison.halvings = 0;
-    task.methods = compare(camera, trial, task.isRendered, task.hasBranchAndBound && options_.branchAndBoundSec > 0, comparison);
+    task.methods = compare(task, trial, task.hasBranchAndBound && options_.branchAndBoundSec > 0, comparison);
     task.trueMethods = task.methods;
     for (MethodResult& method : task.trueMethods)
     {
@@ -138,10 +133,11 @@ private:
     }
     if (task.hasSubsets)
     {
+      TrialSize size = task.size;
       size.ballSamples = size.boardViews = MostSubsetSamples;
       comparison.subsetRepetitions = 1;
       comparison.seed = task.seed;
-      task.subsets = compare(camera, makeTrial(camera.camera, eye, camera.noise, size, task.seed + 1U), false, false, comparison);
+      task.subsets = compare(task, makeTrial(camera.camera, eye, task.noise, size, task.seed + 1U), false, comparison);
     }
     task.isDone = true;
   }
@@ -158,7 +154,7 @@ private:
 };
 
 /// The reason why the methods with a board do well or badly: how far the camera was turned.
-void planTilts(const StudyOptions& options, int camera, std::vector<StudyTask>& tasks)
+void planTilts(const StudyOptions& options, int camera, const StudyNoise& noise, std::vector<StudyTask>& tasks)
 {
   for (const double tiltDeg : TiltsDeg)
   {
@@ -168,8 +164,32 @@ void planTilts(const StudyOptions& options, int camera, std::vector<StudyTask>& 
       task.camera = camera;
       task.repetition = repetition;
       task.tiltDeg = tiltDeg;
+      task.noise = noise;
+      task.size = options.size;
+      task.size.boardTiltDeg = tiltDeg;
+      task.size.boardRollDeg = tiltDeg * 4 / 3;
       task.hasBranchAndBound = repetition < TiltSearches;
       task.seed = options.seed * 1000003U + unsigned(camera) * 100003U + unsigned(repetition) * 7U + 3U;
+      tasks.push_back(task);
+    }
+  }
+}
+
+/// The other reasons, one at a time. The same repetitions for each: what differs is the condition.
+void planConditions(const StudyOptions& options, int camera, const StudyNoise& noise, std::vector<StudyTask>& tasks)
+{
+  for (const StudyCondition& condition : studyConditions(options.size, noise))
+  {
+    for (int repetition = 0; repetition < options.conditionRepetitions && !options.isNoiseFree; ++repetition)
+    {
+      StudyTask task;
+      task.camera = camera;
+      task.repetition = repetition;
+      task.condition = condition.words;
+      task.noise = condition.noise;
+      task.size = condition.size;
+      task.hasBranchAndBound = false;
+      task.seed = options.seed * 1000003U + unsigned(camera) * 100003U + unsigned(repetition) * 7U + 5U;
       tasks.push_back(task);
     }
   }
@@ -190,6 +210,8 @@ std::vector<StudyTask> planTasks(const StudyOptions& options, const std::vector<
         task.camera = int(camera);
         task.eye = int(eye);
         task.repetition = repetition;
+        task.noise = cameras[camera].noise;
+        task.size = options.size;
         task.hasSubsets = repetition < options.subsetRepetitions && eye == 0;
         task.seed = options.seed * 1000003U + unsigned(camera) * 100003U + unsigned(eye) * 50021U + unsigned(repetition) * 7U;
         tasks.push_back(task);
@@ -202,7 +224,8 @@ std::vector<StudyTask> planTasks(const StudyOptions& options, const std::vector<
         }
       }
     }
-    planTilts(options, int(camera), tasks);
+    planTilts(options, int(camera), cameras[camera].noise, tasks);
+    planConditions(options, int(camera), cameras[camera].noise, tasks);
   }
   return tasks;
 }

@@ -16,7 +16,10 @@ struct StudyTask
   int camera = 0, eye = 0, repetition = 0;
   bool isRendered = false;
   bool hasSubsets = false;
-  double tiltDeg = 0;  ///< of the range of the board's directions that is looked into; 0: the study's own
+  double tiltDeg = 0;     ///< of the range of the board's directions that is looked into; 0: the study's own
+  std::string condition;  ///< StudyCondition::words, of a repetition for one of them
+  StudyNoise noise;
+  TrialSize size;
   bool hasBranchAndBound = true;
   unsigned seed = 0;
   bool isDone = false;

@@ -31,6 +31,7 @@ public:
     , random_(seed)
     , attitude_Camera_(random_.rotation())
     , lens_(drawLens())
+    , boardScale_(1 + random_.normal(noise.boardScaleShare))
   {
   }
 
@@ -65,12 +66,12 @@ private:
     return CameraModel(eye_.camera.width(), eye_.camera.height(), matrix, eye_.camera.distortionCoefficients());
   }
 
-  /// A pose as the tracker reports it.
-  Eigen::Isometry3d tracked(const Eigen::Isometry3d& pose)
+  /// A pose as the tracker reports it, with so much of its noise.
+  Eigen::Isometry3d tracked(const Eigen::Isometry3d& pose, double share = 1)
   {
     Eigen::Isometry3d reported = pose;
-    reported.linear() = pose.linear() * rotationFromVector(random_.normal3(noise_.trackingSigmaRad));
-    reported.translation() += random_.normal3(noise_.trackingSigmaMm);
+    reported.linear() = pose.linear() * rotationFromVector(random_.normal3(share * noise_.trackingSigmaRad));
+    reported.translation() += random_.normal3(share * noise_.trackingSigmaMm);
     return reported;
   }
 
@@ -141,7 +142,7 @@ private:
     stylusToTracker.linear() = markerToTracker.linear() * stylusToMarker;
     stylusToTracker.translation() = markerToTracker * ball_Marker - stylusToTracker.linear() * Tip_Stylus;
     const Eigen::Isometry3d trackerToMarker = tracked(markerToTracker).inverse();
-    const Eigen::Isometry3d stylusReported = tracked(stylusToTracker);
+    const Eigen::Isometry3d stylusReported = tracked(stylusToTracker, trueSamples == nullptr ? noise_.stylusShare : 1);
     HandEyeSample sample;
     sample.frame = frame;
     sample.tip_Marker = trackerToMarker * (stylusReported * tip_Stylus_);
@@ -183,7 +184,7 @@ private:
     view.points_Board = boardPoints(camera_.board);
     for (std::size_t i = 0; i < view.points_Board.size(); ++i)
     {
-      const Eigen::Vector3d point_Camera = boardToCamera * view.points_Board[i];
+      const Eigen::Vector3d point_Camera = boardToCamera * (boardScale_ * view.points_Board[i]);
       view.ids.push_back(int(i));
       view.points_Image.push_back(eye_.camera.project(point_Camera).point_Image + random_.normal2(noise_.cornerSigmaPx));
     }
@@ -217,6 +218,7 @@ private:
   StudyRandom random_;
   Eigen::Matrix3d attitude_Camera_;
   CameraModel lens_;
+  double boardScale_ = 1;  ///< of the print, over what the methods are told
   Eigen::Vector3d tip_Stylus_ = Tip_Stylus;
   unsigned pictureSeed_ = 0;
 };

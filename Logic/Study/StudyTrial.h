@@ -21,6 +21,8 @@ struct StudyNoise
   double cornerSigmaPx = 0;     ///< of the board's corners
   double lensFocalShare = 0;    ///< of the focal length that the methods are told, as a share of it
   double lensCenterPx = 0;      ///< of the principal point that the methods are told
+  double boardScaleShare = 0;   ///< of the size in which the board is printed, as a share of it
+  double stylusShare = 1;       ///< the stylus' poses have so much of the tracking noise while its ball is captured
 };
 
 struct TrialSize

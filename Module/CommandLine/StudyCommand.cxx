@@ -22,7 +22,7 @@ struct StudyArguments
 {
   std::string report;
   study::StudyOptions options;
-  double focalErrorPercent = 0;
+  double focalErrorPercent = 0, boardErrorPercent = 0;
   CommandOutput output;
 };
 
@@ -62,6 +62,7 @@ int runStudyCommand(StudyArguments& arguments)
     return !isStopAsked();
   };
   arguments.options.lensFocalShare = arguments.focalErrorPercent / 100;
+  arguments.options.boardScaleShare = arguments.boardErrorPercent / 100;
   const study::StudyResult result = study::runStudy(arguments.options);
   if (result.isUsable())
   {
@@ -117,6 +118,11 @@ void addStudyCommand(CLI::App& app, int& exitCode)
     ->check(some)
     ->capture_default_str();
   command
+    ->add_option("--conditions", options.conditionRepetitions,
+      "Repetitions with one thing changed at a time: corners, print, lens, stylus, number of balls; 0 for none")
+    ->check(some)
+    ->capture_default_str();
+  command
     ->add_option("--render", options.renderedRepetitions,
       "Repetitions whose balls and boards are rendered and found by the detectors, besides the others")
     ->check(some)
@@ -142,6 +148,17 @@ void addStudyCommand(CLI::App& app, int& exitCode)
     ->check(CLI::NonNegativeNumber)
     ->capture_default_str()
     ->type_name("PX");
+  command
+    ->add_option(
+      "--corner-noise", options.cornerSigmaPx, "Of the board's corners, px per axis, instead of what is measured on pictures")
+    ->check(CLI::NonNegativeNumber)
+    ->type_name("PX");
+  command
+    ->add_option("--board-print-error", arguments->boardErrorPercent,
+      "Error of the size in which the board is printed, %, one standard deviation")
+    ->check(CLI::Range(0.0, 9.0))
+    ->capture_default_str()
+    ->type_name("PERCENT");
   command->add_option("--board-tilt", options.size.boardTiltDeg, "The board is looked at from up to so far off its normal")
     ->check(CLI::Range(1.0, 70.0))
     ->capture_default_str()

@@ -24,7 +24,7 @@ StudyOptions small()
 {
   StudyOptions options;
   options.repetitions = 2;
-  options.subsetRepetitions = options.tiltRepetitions = 0;
+  options.subsetRepetitions = options.tiltRepetitions = options.conditionRepetitions = 0;
   options.noisePictures = 4;
   options.branchAndBoundSec = 0;
   options.cameras = { "webcam" };
@@ -266,10 +266,43 @@ TEST(HandEyeStudy, NarrowRange_IsWhyMotionsFail)
   EXPECT_LT(methodOf(tilts[1].truth, "ml").errorPx.mean, 2 * methodOf(tilts.back().truth, "ml").errorPx.mean);
 }
 
+TEST(HandEyeStudy, Conditions_AreWhyTheOrderTurns)
+{
+  StudyOptions options = small();
+  options.conditionRepetitions = 8;
+  const StudyResult result = runStudy(options);
+  const std::vector<StudyConditionResult>& conditions = result.cameras[0].byCondition;
+  ASSERT_EQ(conditions.size(), 7U);
+  const auto own = [&](std::size_t condition, const char* method)
+  { return methodOf(conditions[condition].truth, method).errorPx.mean; };
+  EXPECT_EQ(conditions[0].words, "as it is");
+  for (const std::size_t ofTheBoard : { 1U, 2U })
+  {
+    EXPECT_EQ(own(ofTheBoard, "ml"), own(0, "ml")) << "the ball does not know of it: " << conditions[ofTheBoard].words;
+    EXPECT_GT(own(ofTheBoard, "park"), 1.3 * own(0, "park")) << conditions[ofTheBoard].words;
+  }
+  EXPECT_GT(own(3, "park") - own(0, "park"), own(3, "ml") - own(0, "ml")) << "the board suffers more from a wrong lens";
+  EXPECT_GT(own(4, "park"), own(4, "ml"));
+  EXPECT_EQ(own(5, "park"), own(0, "park")) << "the board has no stylus";
+  EXPECT_LT(own(5, "ml"), own(0, "ml"));
+  EXPECT_LT(own(6, "ml"), own(0, "ml"));
+}
+
+TEST(HandEyeStudy, CornerNoise_IsWhatWasAskedFor)
+{
+  StudyOptions options = small();
+  options.cornerSigmaPx = 0.4;
+  const StudyCameraResult noisy = runStudy(options).cameras[0];
+  EXPECT_EQ(noisy.noise.cornerSigmaPx, 0.4);
+  EXPECT_LT(noisy.measured.cornerSigmaPx, 0.1) << "what was measured stays said";
+  options.boardScaleShare = 0.5;
+  EXPECT_THROW((void)runStudy(options), std::invalid_argument);
+}
+
 TEST(HandEyeStudy, Report_HasATableACamera)
 {
   StudyOptions options = small();
-  options.subsetRepetitions = options.tiltRepetitions = 2;
+  options.subsetRepetitions = options.tiltRepetitions = options.conditionRepetitions = 2;
   const StudyResult result = runStudy(options);
   registerOffscreenRendering();
   const TemporaryFolder folder;
@@ -279,6 +312,7 @@ TEST(HandEyeStudy, Report_HasATableACamera)
   EXPECT_NE(html.find("tracked-board-lines"), std::string::npos);
   EXPECT_NE(html.find("lowest maximum of the calibrations&#39; own errors"), std::string::npos)
     << "each statement, whether it holds";
+  EXPECT_NE(html.find("these three together"), std::string::npos) << "what the order depends on";
   for (const char* const name : { "report.pdf", "webcam-methods.csv", "webcam-true.csv", "webcam-subsets.csv",
          "webcam-distance.png", "webcam-samples.png", "webcam-repeatability.csv", "webcam-tilt.png" })
   {
