@@ -316,8 +316,9 @@ void HandEyeCalibrationPanel::goTo(WizardStep step)
   d->steps->setCurrent(step);
   for (WizardPage* const page : d->pages)
   {
-    // A stack is as high as its highest page, and would let a person scroll into nothing on the others.
-    page->setSizePolicy(QSizePolicy::Preferred, page == &d->currentPage() ? QSizePolicy::Preferred : QSizePolicy::Ignored);
+    // A stack is as large as its largest page: a person could scroll into nothing on the others, or they would be cut off to the side.
+    const QSizePolicy::Policy policy = page == &d->currentPage() ? QSizePolicy::Preferred : QSizePolicy::Ignored;
+    page->setSizePolicy(policy, policy);
   }
   d->ui.pages->setCurrentWidget(&d->currentPage());
   d->ui.scrollArea->verticalScrollBar()->setValue(0);

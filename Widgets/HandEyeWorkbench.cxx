@@ -21,6 +21,7 @@ HandEyeWorkbench::HandEyeWorkbench(QObject* parent)
   , lens_(new LensTask(*work_, this))
   , pivot_(new PivotTask(*work_, this))
   , latency_(new LatencyTask(*work_, this))
+  , touch_(std::make_unique<TouchTask>())
   , capture_(new CaptureTask(*work_, this))
   , validationCapture_(new CaptureTask(*work_, this))
   , comparison_(new ComparisonTask(this))
@@ -119,6 +120,7 @@ void HandEyeWorkbench::onSample(const devices::DeviceSample& sample)
 {
   pivot_->onSample(sample);
   latency_->onSample(sample);
+  touch_->onSample(sample);
 }
 
 void HandEyeWorkbench::onFrame(const devices::PairedFrame& frame)

@@ -15,6 +15,7 @@
 #include "Look.h"
 #include "OverlayPose.h"
 #include "PivotTask.h"
+#include "TouchTask.h"
 #include "ValidationStep.h"
 
 #include <nlohmann/json.hpp>
@@ -93,6 +94,7 @@ public:
   PivotTask& pivot() { return *pivot_; }
   LensTask& lens() { return *lens_; }
   LatencyTask& latency() { return *latency_; }
+  TouchTask& touch() { return *touch_; }
   CaptureTask& capture() { return *capture_; }
   CaptureTask& validationCapture() { return *validationCapture_; }
   ComparisonTask& comparison() { return *comparison_; }
@@ -172,9 +174,14 @@ public:
   static QString ownModel();
   static QString ownLandmarks();
   void registerLandmarks(const std::vector<Eigen::Vector3d>& points_Model, const std::vector<Eigen::Vector3d>& points_Phantom);
-  void loadRegistration(const QString& path);
+  /// @param madeForModel the mesh that it belongs to; empty: the one that is loaded
+  void loadRegistration(const QString& path, const QString& madeForModel = {});
   void saveRegistration(const QString& path);
   const std::optional<Eigen::Isometry3d>& modelToPhantom() const { return modelToPhantom_; }
+  /// Another mesh was loaded after the phantom was registered: nothing is drawn with it until the person says that it lies in the
+  /// same coordinates (keepRegistration()), or registers anew.
+  bool isRegisteredForAnotherModel() const;
+  void keepRegistration();
   const std::optional<LandmarkRegistrationResult>& registration() const { return registration_; }
   /// What places the model, or the reason why there is nothing yet.
   std::optional<OverlayTransforms> overlayTransforms(QString& reason) const;
@@ -234,6 +241,8 @@ private:
   void storeDevices();
   void store(const std::string& name, const nlohmann::json& document);
   void setStylus(const Stylus& stylus, bool isNew);
+  void storeModel();
+  void setModelToPhantom(const std::optional<Eigen::Isometry3d>& modelToPhantom, const QString& madeForModel);
   void updateInputs();
   void updateLive();
   void recalibrate();
@@ -254,6 +263,7 @@ private:
   LensTask* lens_;
   PivotTask* pivot_;
   LatencyTask* latency_;
+  std::unique_ptr<TouchTask> touch_;
   CaptureTask* capture_;
   CaptureTask* validationCapture_;
   ComparisonTask* comparison_;
@@ -269,7 +279,7 @@ private:
   double nearestMm_ = 160, furthestMm_ = 420, enoughPx_ = 1.5;
   bool isCalibrationAsked_ = false, isCalibrating_ = false, isCalibrationStale_ = false;
   vtkSmartPointer<vtkPolyData> model_;
-  QString modelPath_;
+  QString modelPath_, registeredModelPath_;
   std::optional<Eigen::Isometry3d> modelToPhantom_;
   std::optional<LandmarkRegistrationResult> registration_;
 };

@@ -4,6 +4,7 @@
 
 #include <QDateTime>
 #include <QDir>
+#include <QFileInfo>
 #include <QSaveFile>
 
 #include <stdexcept>
@@ -34,6 +35,13 @@ std::optional<OverlayTransforms> HandEyeWorkbench::overlayTransforms(QString& re
   if (!modelToPhantom_)
   {
     reason = tr("The phantom is not registered yet: touch its landmarks, or load a registration.");
+    return std::nullopt;
+  }
+  if (isRegisteredForAnotherModel())
+  {
+    reason = tr("The phantom was registered for %1, not for this mesh: touch its landmarks again, load a registration, or keep the "
+                "one there is if both meshes lie in the same coordinates.")
+               .arg(QFileInfo(registeredModelPath_).fileName());
     return std::nullopt;
   }
   return OverlayTransforms{ calibration_->calibration.markerToCamera, *modelToPhantom_ };

@@ -251,11 +251,40 @@ void HandEyeWorkbench::loadModel(const QString& path)
         {
           model_ = mesh;
           modelPath_ = path;
-          store("model", { { "file", path.toStdString() } });
+          registeredModelPath_ = registeredModelPath_.isEmpty() ? path : registeredModelPath_;
+          storeModel();
           emit modelChanged();
+          emit registrationChanged();
           emit stateChanged();
         });
     });
+}
+
+void HandEyeWorkbench::storeModel()
+{
+  store("model", { { "file", modelPath_.toStdString() }, { "registeredFile", registeredModelPath_.toStdString() } });
+}
+
+void HandEyeWorkbench::setModelToPhantom(const std::optional<Eigen::Isometry3d>& modelToPhantom, const QString& madeForModel)
+{
+  modelToPhantom_ = modelToPhantom;
+  registeredModelPath_ = madeForModel.isEmpty() ? modelPath_ : madeForModel;
+  if (!modelPath_.isEmpty())
+  {
+    storeModel();
+  }
+  emit registrationChanged();
+  emit stateChanged();
+}
+
+bool HandEyeWorkbench::isRegisteredForAnotherModel() const
+{
+  return modelToPhantom_ && !modelPath_.isEmpty() && registeredModelPath_ != modelPath_;
+}
+
+void HandEyeWorkbench::keepRegistration()
+{
+  setModelToPhantom(modelToPhantom_, modelPath_);
 }
 
 void HandEyeWorkbench::registerLandmarks(
@@ -269,32 +298,27 @@ void HandEyeWorkbench::registerLandmarks(
         [this, result]
         {
           registration_ = result;
-          modelToPhantom_.reset();
           if (result.isUsable())
           {
-            modelToPhantom_ = result.modelToPhantom;
             store("phantom", phantomJson(result));
           }
-          emit registrationChanged();
-          emit stateChanged();
+          setModelToPhantom(result.isUsable() ? std::optional(result.modelToPhantom) : std::nullopt, {});
         });
     });
 }
 
-void HandEyeWorkbench::loadRegistration(const QString& path)
+void HandEyeWorkbench::loadRegistration(const QString& path, const QString& madeForModel)
 {
   beside(WizardStep::Overlay,
-    [this, path]
+    [this, path, madeForModel]
     {
       const Eigen::Isometry3d modelToPhantom = readPhantomRegistration(path.toStdString());
       tell(
-        [this, modelToPhantom, document = readDocument(path.toStdString())]
+        [this, modelToPhantom, madeForModel, document = readDocument(path.toStdString())]
         {
           store("phantom", document);
           registration_.reset();
-          modelToPhantom_ = modelToPhantom;
-          emit registrationChanged();
-          emit stateChanged();
+          setModelToPhantom(modelToPhantom, madeForModel);
         });
     });
 }

@@ -60,6 +60,7 @@ void HandEyeWorkbench::openSession(const QString& folder)
   validation_.reset();
   model_ = nullptr;
   modelPath_.clear();
+  registeredModelPath_.clear();
   modelToPhantom_.reset();
   registration_.reset();
   comparison_->clear();
@@ -196,13 +197,14 @@ void HandEyeWorkbench::restoreFiles(const std::map<std::string, json>& documents
   {
     loadCalibration(documentPath(QStringLiteral("calibration")));
   }
-  if (const json model = entry(documents, "model"); model.is_object())
+  const json model = entry(documents, "model");
+  if (model.is_object())
   {
     loadModel(text(model, "file", {}));
   }
   if (entry(documents, "phantom").is_object())
   {
-    loadRegistration(documentPath(QStringLiteral("phantom")));
+    loadRegistration(documentPath(QStringLiteral("phantom")), model.is_object() ? text(model, "registeredFile", {}) : QString());
   }
 }
 

@@ -90,10 +90,11 @@ QString HandEyeWorkbench::problemOf(WizardStep step) const
         ? QString()
         : tr("Hold the ball at a few other places, so that the calibration is tested on them.");
     case WizardStep::Overlay:
-      return !model_      ? tr("Load a model.")
-        : modelToPhantom_ ? QString()
-        : registration_   ? QString::fromStdString(registration_->message)
-                          : tr("Register the phantom: touch its landmarks, or load a registration.");
+      return !model_                    ? tr("Load a model.")
+        : isRegisteredForAnotherModel() ? tr("Register the phantom for this mesh, or keep the registration there is.")
+        : modelToPhantom_               ? QString()
+        : registration_                 ? QString::fromStdString(registration_->message)
+                                        : tr("Register the phantom: touch its landmarks, or load a registration.");
     case WizardStep::Comparison:
     case WizardStep::Finish:
       return {};

@@ -21,6 +21,8 @@ namespace handeye
 namespace
 {
 
+constexpr int TipIntervalMs = 50;  // between two looks at where the stylus' tip is
+
 /// A red disc while it is recorded, a grey ring otherwise.
 QIcon recordingLight(OverlayRecordingState::Phase phase)
 {
@@ -73,10 +75,15 @@ OverlayPage::OverlayPage(HandEyeWorkbench& workbench, QWidget* parent)
       }
       workbench_.registerLandmarks(pairs.points_Model, pairs.points_Phantom);
     });
-  connect(ui_->landmarks, &LandmarkPanel::loadRequested, &workbench_, &HandEyeWorkbench::loadRegistration);
+  connect(
+    ui_->landmarks, &LandmarkPanel::loadRequested, &workbench_, [this](const QString& path) { workbench_.loadRegistration(path); });
   connect(ui_->landmarks, &LandmarkPanel::saveRequested, &workbench_, &HandEyeWorkbench::saveRegistration);
   connect(&workbench_, &HandEyeWorkbench::registrationChanged, this, &OverlayPage::showRegistration);
-  connect(&workbench_.live(), &LivePipeline::shown, this, &OverlayPage::followTip);
+  connect(ui_->keepButton, &QPushButton::clicked, &workbench_, &HandEyeWorkbench::keepRegistration);
+  ui_->keepButton->hide();
+  tipTimer_.setInterval(TipIntervalMs);
+  connect(&tipTimer_, &QTimer::timeout, this, &OverlayPage::followTip);
+  tipTimer_.start();
 }
 
 OverlayPage::~OverlayPage() = default;
@@ -238,34 +245,34 @@ void OverlayPage::setState(const OverlayState& state)
 
 void OverlayPage::followTip()
 {
-  const std::shared_ptr<const LiveView> view = workbench_.live().newest();
-  if (!isVisible() || !view)
+  if (!isVisible())
   {
     return;
   }
   const DeviceSetup& setup = workbench_.devices().setup();
   const std::optional<HandEyeWorkbench::Stylus>& stylus = workbench_.stylus();
-  touch_.reset(stylus ? std::optional<Eigen::Vector3d>(stylus->tip_Stylus) : std::nullopt, setup.stylusToTracker.toStdString(),
+  TouchTask& task = workbench_.touch();
+  task.follow(stylus ? std::optional<Eigen::Vector3d>(stylus->tip_Stylus) : std::nullopt, setup.stylusToTracker.toStdString(),
     setup.phantomToTracker.toStdString());
-  touch_.add(view->frame);
-  ui_->landmarks->setTipAvailable(touch_.tip_Phantom().has_value(), touch_.problem());
-  if (const std::optional<Eigen::Vector3d> rest_Phantom = touch_.rest_Phantom())
+  touch_ = task.newest();
+  ui_->landmarks->setTipAvailable(touch_.tip_Phantom.has_value(), touch_.problem);
+  if (touch_.rest_Phantom)
   {
-    ui_->landmarks->offerTip(*rest_Phantom);
+    ui_->landmarks->offerTip(*touch_.rest_Phantom);
   }
 }
 
 void OverlayPage::takeTip()
 {
-  const std::optional<Eigen::Vector3d> rest_Phantom = touch_.rest_Phantom();
-  if (rest_Phantom || touch_.tip_Phantom())
+  if (touch_.tip_Phantom)
   {
-    ui_->landmarks->setTouched(rest_Phantom ? *rest_Phantom : *touch_.tip_Phantom());
+    ui_->landmarks->setTouched(touch_.rest_Phantom.value_or(*touch_.tip_Phantom));
   }
 }
 
 void OverlayPage::showRegistration()
 {
+  ui_->keepButton->setVisible(workbench_.isRegisteredForAnotherModel());
   const std::optional<LandmarkRegistrationResult>& result = workbench_.registration();
   const int pairCount = ui_->landmarks->pairs().landmarks.size();
   if (!result || int(result->residualsMm.size()) == pairCount || !result->isUsable())

@@ -54,7 +54,8 @@ private:
   void showLook();
 
   std::unique_ptr<Ui::OverlayPage> ui_;
-  TouchTask touch_;
+  TouchTask::Touch touch_;
+  QTimer tipTimer_;
   OverlayLook look_;
   bool isRecording_ = false;
 };

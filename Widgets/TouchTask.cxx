@@ -4,61 +4,120 @@
 
 #include <QCoreApplication>
 
+#include <utility>
+
 namespace handeye
 {
 
-void TouchTask::reset(
-  const std::optional<Eigen::Vector3d>& tip_Stylus, const std::string& stylusToTracker, const std::string& phantomToTracker)
+namespace
 {
-  if (tip_Stylus == tip_Stylus_ && stylusToTracker == stylusToTracker_ && phantomToTracker == phantomToTracker_)
-  {
-    return;
-  }
-  stylusToTracker_ = stylusToTracker;
-  phantomToTracker_ = phantomToTracker;
-  tip_Stylus_ = tip_Stylus;
-  tip_Phantom_.reset();
-  stillness_.reset();
-  newestSec_ = -1;
+
+constexpr double LongestWaitSec = 0.3;  // stream time that a stylus' pose waits for the phantom's
+constexpr double ClockJumpSec = 10;     // a time that goes back by more is a clock that was set
+constexpr std::chrono::milliseconds Silence(700);
+
+QString tr(const char* text)
+{
+  return QCoreApplication::translate("handeye::TouchTask", text);
 }
 
-void TouchTask::add(const devices::PairedFrame& frame)
+}  // namespace
+
+void TouchTask::follow(
+  const std::optional<Eigen::Vector3d>& tip_Stylus, const std::string& stylusToTracker, const std::string& phantomToTracker)
 {
-  tip_Phantom_.reset();
-  problem_.clear();
-  if (!tip_Stylus_)
+  const std::lock_guard lock(mutex_);
+  if (tip_Stylus != tip_Stylus_ || stylusToTracker != stylusToTracker_ || phantomToTracker != phantomToTracker_)
   {
-    problem_ = QCoreApplication::translate("handeye::TouchTask", "The stylus is not calibrated yet.");
+    stylusToTracker_ = stylusToTracker;
+    phantomToTracker_ = phantomToTracker;
+    tip_Stylus_ = tip_Stylus;
+    clear();
+  }
+}
+
+void TouchTask::clear()
+{
+  stylus_.clear();
+  phantom_.clear();
+  waitingSec_.clear();
+  stillness_.reset();
+  touch_ = {};
+  taken_ = {};
+}
+
+void TouchTask::onSample(const devices::DeviceSample& sample)
+{
+  const std::lock_guard lock(mutex_);
+  const bool isStylus = sample.name == stylusToTracker_;
+  if (!sample.pose() || !tip_Stylus_ || (!isStylus && sample.name != phantomToTracker_) || !(sample.timeSec >= 0))
+  {
     return;
   }
-  const double timeSec = frame.image.timeSec;
-  if (!stillness_ || timeSec < newestSec_)
+  if (sample.timeSec < std::max(stylus_.newestSec(), phantom_.newestSec()) - ClockJumpSec)
+  {
+    clear();
+  }
+  const bool isValid = sample.pose()->isValid && sample.pose()->transform.matrix().allFinite();
+  const bool isNew = !isStylus || stylus_.isEmpty() || sample.timeSec > stylus_.newestSec();
+  (isStylus ? stylus_ : phantom_).add(sample.timeSec, sample.pose()->transform, isValid);
+  if (isStylus && isNew)
+  {
+    waitingSec_.push_back(sample.timeSec);
+  }
+  const double newestSec = std::max(stylus_.newestSec(), phantom_.newestSec());
+  while (!waitingSec_.empty() && (phantom_.newestSec() >= waitingSec_.front() || newestSec - waitingSec_.front() > LongestWaitSec))
+  {
+    take(waitingSec_.front());
+    waitingSec_.pop_front();
+  }
+}
+
+/// The moment has all it waits for, or has waited long enough.
+void TouchTask::take(double timeSec)
+{
+  taken_ = std::chrono::steady_clock::now();
+  touch_ = {};
+  if (!stillness_)
   {
     stillness_.emplace(*tip_Stylus_);
   }
-  newestSec_ = timeSec;
-  for (const std::string& name : { stylusToTracker_, phantomToTracker_ })
+  const PoseAtTime stylusToTracker = stylus_.at(timeSec), phantomToTracker = phantom_.at(timeSec);
+  for (const auto& [name, pose] : { std::pair(&stylusToTracker_, &stylusToTracker), { &phantomToTracker_, &phantomToTracker } })
   {
-    const auto pose = frame.poses.find(name);
-    if (pose == frame.poses.end() || !pose->second.isUsable())
+    if (!pose->isUsable())
     {
-      problem_ = QString::fromStdString(name + ": ") +
-        (pose == frame.poses.end() ? QCoreApplication::translate("handeye::TouchTask", "no pose was received")
-                                   : QString::fromStdString(pose->second.message));
+      touch_.problem = QString::fromStdString(*name + ": " + pose->message);
       (void)stillness_->addInvalid(timeSec);
       return;
     }
   }
-  const Eigen::Isometry3d trackerToPhantom = frame.poses.at(phantomToTracker_).transform.inverse();
-  const Eigen::Isometry3d stylusToPhantom = trackerToPhantom * frame.poses.at(stylusToTracker_).transform;
-  tip_Phantom_ = stylusToPhantom * *tip_Stylus_;
+  const Eigen::Isometry3d stylusToPhantom = phantomToTracker.transform.inverse() * stylusToTracker.transform;
+  touch_.tip_Phantom = stylusToPhantom * *tip_Stylus_;
   (void)stillness_->add(timeSec, stylusToPhantom);
+  if (const std::optional<Rest> rest = stillness_->current())
+  {
+    touch_.rest_Phantom = rest->tip_World;
+  }
 }
 
-std::optional<Eigen::Vector3d> TouchTask::rest_Phantom() const
+TouchTask::Touch TouchTask::newest() const
 {
-  const std::optional<Rest> rest = stillness_ && tip_Phantom_ ? stillness_->current() : std::nullopt;
-  return rest ? std::optional<Eigen::Vector3d>(rest->tip_World) : std::nullopt;
+  const std::lock_guard lock(mutex_);
+  Touch touch;
+  if (!tip_Stylus_)
+  {
+    touch.problem = tr("The stylus is not calibrated yet.");
+  }
+  else if (std::chrono::steady_clock::now() - taken_ > Silence)
+  {
+    touch.problem = QString::fromStdString(stylusToTracker_) + tr(": no pose is received");
+  }
+  else
+  {
+    touch = touch_;
+  }
+  return touch;
 }
 
 }  // namespace handeye

@@ -2,13 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "FramePairing.h"
+#include "DeviceSample.h"
+#include "PoseTrack.h"
 #include "StillnessDetector.h"
 
 #include <Eigen/Core>
 #include <QString>
 
+#include <chrono>
+#include <deque>
+#include <mutex>
 #include <optional>
+#include <string>
 
 namespace handeye
 {
@@ -17,28 +22,40 @@ namespace handeye
 ///
 ///     tip_Phantom = inverse(phantomToTracker) * stylusToTracker * tip_Stylus        mm
 ///
-/// and where it rests (see StillnessDetector). Frames are given one by one; not safe to share between threads.
+/// and where it rests (see StillnessDetector). Every pose of the stylus counts, whatever the video does; the phantom's pose is that
+/// of the same moment.
+///
+/// onSample() belongs to the thread of the sources, the rest to that of the user interface.
 class TouchTask
 {
 public:
-  /// Another stylus, or another phantom: begins anew.
-  void reset(
+  struct Touch
+  {
+    std::optional<Eigen::Vector3d> tip_Phantom;   ///< nothing while a tool is not seen
+    std::optional<Eigen::Vector3d> rest_Phantom;  ///< the mean of the rest that is under way
+    QString problem;                              ///< why there is no tip, a sentence
+  };
+
+  /// Whose tip is followed; another stylus, or another phantom, begins anew.
+  void follow(
     const std::optional<Eigen::Vector3d>& tip_Stylus, const std::string& stylusToTracker, const std::string& phantomToTracker);
 
-  void add(const devices::PairedFrame& frame);
+  void onSample(const devices::DeviceSample& sample);
 
-  /// Nothing while a tool is not seen; problem() says which.
-  const std::optional<Eigen::Vector3d>& tip_Phantom() const { return tip_Phantom_; }
-  const QString& problem() const { return problem_; }
-  /// The mean of the rest that is under way.
-  std::optional<Eigen::Vector3d> rest_Phantom() const;
+  Touch newest() const;
 
 private:
+  void clear();
+  void take(double timeSec);
+
+  mutable std::mutex mutex_;
   std::string stylusToTracker_, phantomToTracker_;
-  std::optional<Eigen::Vector3d> tip_Stylus_, tip_Phantom_;
+  std::optional<Eigen::Vector3d> tip_Stylus_;
+  PoseTrack stylus_, phantom_;
+  std::deque<double> waitingSec_;  ///< moments of the stylus for which the phantom's pose has not come yet
   std::optional<StillnessDetector> stillness_;
-  double newestSec_ = -1;
-  QString problem_;
+  std::chrono::steady_clock::time_point taken_;  ///< when the newest moment was taken
+  Touch touch_;
 };
 
 }  // namespace handeye

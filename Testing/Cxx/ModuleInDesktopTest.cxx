@@ -98,6 +98,8 @@ private slots:
 
   void demonstration_BeginsWithTheSimulatedRoom()
   {
+    EventLoopWatch watch;
+    watch.watchDrawing();
     auto* const lights = this->Window->findChild<desktop::StreamLights*>();
     QTRY_VERIFY_WITH_TIMEOUT(lights->streams().size() >= 4, 15000);
     const auto allLive = [lights]
@@ -108,6 +110,8 @@ private slots:
     QTRY_VERIFY_WITH_TIMEOUT(allLive(), 5000);
     QVERIFY(!this->Window->findChild<QLabel*>("NoVideo")->isVisible());
     QVERIFY(this->Window->sceneRenderer()->GetViewProps()->GetNumberOfItems() > 1);
+    QTest::qWait(500);
+    this->note("the first pictures", watch);
   }
 
   void wizard_ClickedThroughInTheDesktop()

@@ -16,6 +16,7 @@
 #include <QFileInfo>
 #include <QLabel>
 #include <QRegularExpression>
+#include <QScrollArea>
 #include <QSignalSpy>
 #include <QSlider>
 #include <nlohmann/json.hpp>
@@ -46,6 +47,7 @@ private slots:
   void recording_EndsWithThePage();
   void twoEyes_SeeEachTheirOwn();
   void closedWindow_LosesNothingOfAVideo();
+  void anotherMesh_DoesNotTakeTheRegistrationOfTheOneBefore();
 
 private:
   vtkHandEyeOverlayPipeline* pipeline() { return panel_->videoView().pipeline(); }
@@ -384,6 +386,41 @@ void WizardOverlayTest::closedWindow_LosesNothingOfAVideo()
   const int count = framesOf(path, last);
   QVERIFY2(count >= told, qPrintable(QStringLiteral("%1 of %2").arg(count).arg(told)));
   QCOMPARE(handeye::io::SequenceMetafile::open(metafileOf(path).toStdString()).frameCount(), count);
+}
+
+void WizardOverlayTest::anotherMesh_DoesNotTakeTheRegistrationOfTheOneBefore()
+{
+  HandEyeWorkbench& workbench = panel_->workbench();
+  WizardDriver driver(*panel_);
+  const QString first = workbench.modelPath();
+  const QString other = QStringLiteral(HANDEYE_TEST_OUTPUT_DIR "/AnotherMesh.ply");
+  QFile::remove(other);
+  QVERIFY(QFile::copy(first, other));
+  auto* const keep = driver.onPage("keepButton");
+  QVERIFY(!keep->isVisible());
+  workbench.loadModel(other);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.isRegisteredForAnotherModel(), PatienceMs);
+  feed(true);
+  QTRY_VERIFY_WITH_TIMEOUT(!pipeline()->GetModelVisible(), PatienceMs);
+  feed(true);
+  QTRY_VERIFY_WITH_TIMEOUT(driver.visibleText("overlayLabel").contains(QFileInfo(first).fileName()), 1000);
+  QVERIFY(workbench.problemOf(WizardStep::Overlay).contains(QStringLiteral("this mesh")));
+  QVERIFY(keep->isVisible());
+  panel_->grab().save(QStringLiteral(HANDEYE_TEST_OUTPUT_DIR "/WizardOverlay.anotherMesh.png"));
+  const auto* area = panel_->findChild<QScrollArea*>(QStringLiteral("scrollArea"));
+  QVERIFY2(panel_->page(WizardStep::Overlay)->width() <= area->viewport()->width(), "cut off to the side");
+  // It is still so when the session is opened again.
+  const QString session = workbench.capture().folder();
+  QTRY_VERIFY_WITH_TIMEOUT(!workbench.capture().isBusy(), PatienceMs);
+  workbench.openSession(session);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.isRegisteredForAnotherModel(), PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.calibration() && workbench.calibration()->isUsable(), PatienceMs);
+  // The person says that both meshes lie in the same coordinates.
+  driver.click(keep);
+  QVERIFY(!workbench.isRegisteredForAnotherModel());
+  QVERIFY(!keep->isVisible());
+  feed(true);
+  QTRY_VERIFY_WITH_TIMEOUT(pipeline()->GetModelVisible(), PatienceMs);
 }
 
 HANDEYE_WIDGET_TEST_MAIN(WizardOverlayTest)
