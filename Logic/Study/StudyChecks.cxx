@@ -15,6 +15,7 @@ namespace
 
 /// The paper's factor between branch and bound and point-to-line on the laparoscope.
 constexpr double ReportedFactor = 3;
+constexpr std::size_t MostRivalsNamed = 2;
 
 std::string px(double value)
 {
@@ -191,9 +192,10 @@ StudyCheck compare(const std::string& what, const ComparisonResult& comparison, 
   StudyCheck check;
   check.what = what;
   check.measured = ours.name + " " + px(quantity(ours));
-  const std::vector<const MethodResult*> rivals = rivalsIn(comparison, ours, quantity, isRival);
+  std::vector<const MethodResult*> rivals = rivalsIn(comparison, ours, quantity, isRival);
   check.holds =
     std::none_of(rivals.begin(), rivals.end(), [&](const MethodResult* rival) { return quantity(*rival) <= quantity(ours); });
+  rivals.resize(std::min(rivals.size(), MostRivalsNamed));
   for (const MethodResult* rival : rivals)
   {
     check.measured += ", " + rival->name + " " + px(quantity(*rival));

@@ -28,7 +28,7 @@ std::vector<StudyCondition> studyConditions(const TrialSize& size, const StudyNo
   conditions[3].words = "lens 0.2 % and 2 px off";
   conditions[3].noise.lensFocalShare = std::max(noise.lensFocalShare, LensFocalShare);
   conditions[3].noise.lensCenterPx = std::max(noise.lensCenterPx, LensCenterPx);
-  conditions[4].words = "these three together";
+  conditions[4].words = ConditionOfPractice;
   conditions[4].noise = conditions[3].noise;
   conditions[4].noise.cornerSigmaPx = conditions[1].noise.cornerSigmaPx;
   conditions[4].noise.boardScaleShare = conditions[2].noise.boardScaleShare;

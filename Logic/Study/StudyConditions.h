@@ -18,6 +18,9 @@ struct StudyCondition
   TrialSize size;
 };
 
+/// The words of the condition in which board and lens are as they are in practice.
+inline constexpr const char* ConditionOfPractice = "these three together";
+
 /// First the study as it is, then one thing changed at a time: what is known exactly of a board here and is not in practice, and
 /// what the ball has more of (a second tracked marker).
 std::vector<StudyCondition> studyConditions(const TrialSize& size, const StudyNoise& noise);
