@@ -83,7 +83,6 @@ Recording Recording::openFolder(const std::filesystem::path& folder, bool needsT
   recording.frameCount_ = recording.imageFiles_.rbegin()->first + 1;
   if (!hasTracking)
   {
-    recording.warnings_.push_back("there is no " + std::string(TrackingName) + ": images without tracking");
     return recording;
   }
 

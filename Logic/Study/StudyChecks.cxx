@@ -174,7 +174,7 @@ std::string reasonOfOwn(const MethodResult& ours, const MethodResult& rival)
 
 std::string reasonOfMean(const StudyCameraResult& result, const MethodResult& ours, const MethodResult& rival)
 {
-  return "A perfect calibration would show " + px(result.floorPx.mean) +
+  return "A perfect calibration with the true lens would show " + px(result.floorPx.mean) +
     ". A ball takes two tracked markers a sample and gives one point; a view of a board that stands still takes one and gives " +
     std::to_string(result.camera.board.pointCount()) + "." + conditionWords(result, ours, rival);
 }

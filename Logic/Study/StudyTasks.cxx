@@ -127,7 +127,7 @@ private:
         capture.validation = validateHandEye(trial.trueValidation, trial.lens, *capture.answer.markerToCamera);
       }
     }
-    for (const HandEyeValidationSample& sample : validateHandEye(trial.validation, trial.lens, eye.markerToCamera).samples)
+    for (const HandEyeValidationSample& sample : validateHandEye(trial.validation, eye.camera, eye.markerToCamera).samples)
     {
       task.floorPx.push_back(sample.errorPx);
     }

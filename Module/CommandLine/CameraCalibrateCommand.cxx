@@ -63,6 +63,14 @@ void readSize(const io::Recording& recording, EyeViews& eye)
   }
 }
 
+/// What a line is about, as wide as that of every line.
+std::string title(std::string text)
+{
+  constexpr std::size_t width = 21;
+  text.resize(std::max(text.size() + 1, width), ' ');
+  return text;
+}
+
 EyeViews readEye(const LensArguments& arguments, const std::string& path, const std::string& label, bool all)
 {
   const io::Recording recording = io::Recording::openImages(path);
@@ -91,8 +99,8 @@ void sayEye(const LensArguments& arguments, const EyeViews& eye, const LensCalib
 {
   const CommandOutput& output = arguments.output;
   const std::string statuses = countStatuses(eye.frames);
-  output.say("views" + label + "                " + std::to_string(eye.views.size()) + " of " + std::to_string(eye.frames.size()) +
-    " frames" + (statuses.empty() ? "" : " (not used: " + statuses + ")"));
+  output.say(title("views" + label) + std::to_string(eye.views.size()) + " of " + std::to_string(eye.frames.size()) + " frames" +
+    (statuses.empty() ? "" : " (not used: " + statuses + ")"));
   output.say(format("coverage             %.0f %% of the image", 100 * eye.collector->coverageShare()));
   for (const LensCalibrationResult::View& view : result.views)
   {
@@ -127,7 +135,7 @@ void sayEye(const LensArguments& arguments, const EyeViews& eye, const LensCalib
   {
     output.say("model                " + result.modelHint);
   }
-  output.say("verdict" + label + "              " + result.message);
+  output.say(title("verdict" + label) + result.message);
 }
 
 void writeLens(const std::string& path, const LensCalibrationResult& result, const CommandOutput& output)
@@ -148,23 +156,31 @@ void writeCoverage(const LensArguments& arguments, const EyeViews& eye, const Le
   }
 }
 
+/// How an eye's lens varies where that was asked for.
+void addRepetitions(const LensArguments& arguments, const EyeViews& eye, const LensCalibrationResult& result,
+  const std::string& label, nlohmann::json& object)
+{
+  if (!result.isUsable() || arguments.repetitions == 0)
+  {
+    return;
+  }
+  LensRepetitionOptions repetition;
+  repetition.repetitions = arguments.repetitions;
+  const LensRepetition repeated = repeatLensCalibration(
+    eye.views, eye.width, eye.height, arguments.lens, repetition, arguments.output.progress("calibrating again,"));
+  object["repetitions"] = repetitionJson(repeated);
+  arguments.output.say(title("repeated" + label) + std::to_string(repeated.results.size()) +
+    format(" times with 60 %% of the views: focal length %.2f px +- %.2f", repeated.fx.mean, repeated.fx.standardDeviation) +
+    format("; rays move by %.2f px, %.2f at most", repeated.meanShiftPx, repeated.maximumShiftPx));
+}
+
 int runOne(const LensArguments& arguments, const BoardDescription& board)
 {
   const EyeViews eye = readEye(arguments, arguments.recording, "", arguments.all);
   const LensCalibrationResult result = calibrateLens(eye.views, eye.width, eye.height, arguments.lens);
   sayEye(arguments, eye, result, "");
   nlohmann::json object = lensJson(result, board, eye.frames, eye.collector.get());
-  if (result.isUsable() && arguments.repetitions > 0)
-  {
-    LensRepetitionOptions repetition;
-    repetition.repetitions = arguments.repetitions;
-    const LensRepetition repeated = repeatLensCalibration(
-      eye.views, eye.width, eye.height, arguments.lens, repetition, arguments.output.progress("calibrating again,"));
-    object["repetitions"] = repetitionJson(repeated);
-    arguments.output.say("repeated             " + std::to_string(repeated.results.size()) +
-      format(" times with 60 %% of the views: focal length %.2f px +- %.2f", repeated.fx.mean, repeated.fx.standardDeviation) +
-      format("; rays move by %.2f px, %.2f at most", repeated.meanShiftPx, repeated.maximumShiftPx));
-  }
+  addRepetitions(arguments, eye, result, "", object);
   writeCoverage(arguments, eye, result);
   return arguments.output.finish(object, [&](const std::string& path) { writeLens(path, result, arguments.output); });
 }
@@ -195,6 +211,8 @@ int runStereo(const LensArguments& arguments, const BoardDescription& board)
   nlohmann::json object = { { "schema", "handeye-stereo-lens/1" }, { "status", toString(result.status) },
     { "message", result.message }, { "left", lensJson(result.left, board, left.frames, left.collector.get()) },
     { "right", lensJson(result.right, board, right.frames, right.collector.get()) } };
+  addRepetitions(arguments, left, result.left, ", left", object["left"]);
+  addRepetitions(arguments, right, result.right, ", right", object["right"]);
   if (result.isUsable())
   {
     object["leftToRight"] = toJson(result.leftToRight);

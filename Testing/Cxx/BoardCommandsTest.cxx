@@ -193,6 +193,30 @@ TEST_F(BoardCommands, CameraCalibrate_WritesTheLens)
   EXPECT_FALSE(std::filesystem::exists(file("other.yml")));
 }
 
+TEST_F(BoardCommands, CameraCalibrate_StereoPair_HasBothLensesAndTheirRelation)
+{
+  // The same eye twice: what is between them is known, nothing.
+  const CommandResult result =
+    run({ "camera", "calibrate", file("board"), "--board", Board, "--model", "4", "--right", file("board"), "--repeat", "2",
+      "--right-output", file("right.yml"), "--left-to-right", file("leftToRight.txt"), "--json", "-o", file("left.yml") });
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.err.find("warning"), std::string::npos) << result.err;
+  const json object = result.json();
+  EXPECT_EQ(object["status"], "ok");
+  EXPECT_GE(object["pairFrames"].size(), 12U);
+  for (const char* const eye : { "left", "right" })
+  {
+    EXPECT_NEAR(object[eye]["camera"]["cameraMatrix"][0][0].get<double>(), 450, 0.9) << eye;
+    EXPECT_EQ(object[eye]["repetitions"]["count"], 2) << eye;
+    EXPECT_NEAR(io::readCameraFile(file(std::string(eye) + ".yml")).camera.fx(), 450, 0.9) << eye;
+  }
+  EXPECT_TRUE(rigid3dNear(transformOf(object["leftToRight"]), Eigen::Isometry3d::Identity(), 1e-4, 0.05));
+  std::ifstream matrix(file("leftToRight.txt"));
+  double first = 0;
+  matrix >> first;
+  EXPECT_NEAR(first, 1, 1e-6);
+}
+
 TEST_F(BoardCommands, BoardHandEye_FindsTheMarkerByEachMethod)
 {
   for (const std::string method :

@@ -295,6 +295,9 @@ TEST(HandEyeStudy, CornerNoise_IsWhatWasAskedFor)
   const StudyCameraResult noisy = runStudy(options).cameras[0];
   EXPECT_EQ(noisy.noise.cornerSigmaPx, 0.4);
   EXPECT_LT(noisy.measured.cornerSigmaPx, 0.1) << "what was measured stays said";
+  options.lensFocalShare = 0.02;
+  EXPECT_EQ(runStudy(options).cameras[0].floorPx.count, noisy.floorPx.count);
+  EXPECT_LT(runStudy(options).cameras[0].floorPx.mean, 1.5 * noisy.floorPx.mean) << "the validation's noise has no part of the lens";
   options.boardScaleShare = 0.5;
   EXPECT_THROW((void)runStudy(options), std::invalid_argument);
 }
