@@ -73,6 +73,11 @@ ComparisonPage::ComparisonPage(HandEyeWorkbench& workbench, QWidget* parent)
     {
       ui_->reportLabel->hide();
       showResult();
+      const QString report = workbench_.comparisonFolder() + QStringLiteral("/report.html");
+      if (!workbench_.storedComparison().isEmpty() && QFileInfo::exists(report))
+      {
+        linkReport(report);
+      }
     });
   showResult();
 }
@@ -197,8 +202,11 @@ void ComparisonPage::showResult()
   const std::shared_ptr<const SessionComparison> comparison = workbench_.comparison().result();
   const bool hasResult = comparison != nullptr;
   const ComparisonResult result = hasResult ? comparison->result : ComparisonResult();
-  ui_->verdictLabel->setText(QString::fromStdString(result.message));
-  ui_->verdictLabel->setVisible(hasResult);
+  const QString& stored = workbench_.storedComparison();
+  ui_->verdictLabel->setText(hasResult ? QString::fromStdString(result.message)
+      : stored.isEmpty()               ? QString()
+                                       : tr("Compared before: %1 Compare again for the table and the plots.").arg(stored));
+  ui_->verdictLabel->setVisible(!ui_->verdictLabel->text().isEmpty());
   ui_->table->setResult(result);
   ui_->table->setVisible(hasResult);
   ui_->signsLabel->setVisible(hasResult);
@@ -262,13 +270,19 @@ void ComparisonPage::showRepeatability(const ComparisonResult& result)
       : tr("How far the calibrations of the captures are from each other (RMS). What is wrong in all of them is not seen."));
 }
 
-/// The browser shows it; where it is stands on the page, for whoever has none.
-void ComparisonPage::showReport(const QString& path)
+void ComparisonPage::linkReport(const QString& path)
 {
   const QUrl report = QUrl::fromLocalFile(path), folder = QUrl::fromLocalFile(QFileInfo(path).path());
   ui_->reportLabel->setText(tr("<a href=\"%1\">report.html</a> and report.pdf are in <a href=\"%2\">%3</a>.")
                               .arg(report.toString(), folder.toString(), QFileInfo(path).path().toHtmlEscaped()));
   ui_->reportLabel->show();
+}
+
+/// The browser shows it; where it is stands on the page, for whoever has none.
+void ComparisonPage::showReport(const QString& path)
+{
+  linkReport(path);
+  const QUrl report = QUrl::fromLocalFile(path), folder = QUrl::fromLocalFile(QFileInfo(path).path());
   if (!QDesktopServices::openUrl(report))
   {
     QDesktopServices::openUrl(folder);

@@ -41,6 +41,7 @@ private:
   void showResult();
   void showPlots(const ComparisonResult& result);
   void showRepeatability(const ComparisonResult& result);
+  void linkReport(const QString& path);
   void showReport(const QString& path);
 
   std::unique_ptr<Ui::ComparisonPage> ui_;

@@ -163,6 +163,8 @@ public:
   void compare(const ComparisonExtras& extras);
   /// The samples, the lens or the stylus are others than those that were compared.
   bool isComparisonStale() const;
+  /// The verdict of a comparison that this session had when it was opened; its table and plots are made anew.
+  const QString& storedComparison() const { return storedComparison_; }
   /// The session's folder for the comparison's report.
   QString comparisonFolder() const;
 
@@ -269,6 +271,7 @@ private:
   ComparisonTask* comparison_;
   WizardStep step_ = WizardStep::Devices;
   QStringList sessionProblems_;
+  QString storedComparison_;
   std::optional<Camera> camera_;
   std::optional<Stylus> stylus_;
   Ball ball_;

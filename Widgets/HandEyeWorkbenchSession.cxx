@@ -64,6 +64,7 @@ void HandEyeWorkbench::openSession(const QString& folder)
   modelToPhantom_.reset();
   registration_.reset();
   comparison_->clear();
+  storedComparison_.clear();
   sessionProblems_.clear();
   emit resultsForgotten();
   emit modelChanged();
@@ -121,6 +122,7 @@ void HandEyeWorkbench::storeDevices()
 void HandEyeWorkbench::takeDocuments(const std::map<std::string, json>& documents, const QStringList& problems)
 {
   sessionProblems_ = problems;
+  storedComparison_ = text(entry(documents, "comparison"), "message", {});
   const json ball = entry(documents, "ball");
   const auto positive = [&](const char* key, double otherwise)
   {

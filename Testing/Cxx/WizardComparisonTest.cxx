@@ -340,6 +340,15 @@ void WizardComparisonTest::report_IsWrittenAndOpened()
   // The window's own charts are drawn as before.
   QTest::qWait(300);
   takePicture(QStringLiteral("wizard-comparison-reported-1280x800"));
+  // The session remembers both when it is opened again.
+  const QString verdict = driver_->onPage<QLabel>("verdictLabel")->text(), session = panel_->workbench().capture().folder();
+  QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(panel_->workbench().documentPath(QStringLiteral("comparison"))), PatienceMs);
+  panel_->workbench().openSession(session);
+  QTRY_VERIFY_WITH_TIMEOUT(!panel_->workbench().storedComparison().isEmpty(), PatienceMs);
+  QVERIFY(driver_->onPage<QLabel>("verdictLabel")->text().contains(verdict));
+  QVERIFY(driver_->onPage<QLabel>("verdictLabel")->text().startsWith(QStringLiteral("Compared before")));
+  QVERIFY(driver_->onPage<QLabel>("reportLabel")->isVisible());
+  QVERIFY(!driver_->onPage("reportButton")->isEnabled());
 }
 
 void WizardComparisonTest::takePicture(const QString& name)
