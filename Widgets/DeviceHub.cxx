@@ -256,11 +256,45 @@ QString DeviceHub::imageName() const
   return found == streams_.end() ? QString() : found->name;
 }
 
+/// Why the names cannot be what they are said to be: two tools are never one stream.
+QString DeviceHub::wrongChoice() const
+{
+  struct Tool
+  {
+    QString what, name;
+  };
+  const Tool stylus{ tr("the stylus"), setup_.stylusToTracker }, marker{ tr("the camera's marker"), setup_.markerToTracker },
+    phantom{ tr("the phantom"), setup_.phantomToTracker };
+  for (const Tool& needed : { stylus, marker })
+  {
+    if (needed.name.isEmpty())
+    {
+      return tr("Choose the stream of %1.").arg(needed.what);
+    }
+  }
+  for (const auto& [one, other] : { std::pair(stylus, marker), std::pair(stylus, phantom), std::pair(marker, phantom) })
+  {
+    if (one.name == other.name)
+    {
+      return tr("'%1' is chosen for %2 and for %3: choose the stream of each.").arg(one.name, one.what, other.what);
+    }
+  }
+  if (!setup_.rightImage.isEmpty() && setup_.rightImage == imageName())
+  {
+    return tr("The video '%1' is chosen for both eyes.").arg(setup_.rightImage);
+  }
+  return {};
+}
+
 QString DeviceHub::missing(bool needsVideo) const
 {
   if (!acquisition_)
   {
     return problem_.isEmpty() ? tr("Nothing is connected. Choose where the data come from and press Connect.") : problem_;
+  }
+  if (const QString choice = wrongChoice(); !choice.isEmpty())
+  {
+    return choice;
   }
   for (const QString& name : { setup_.stylusToTracker, setup_.markerToTracker })
   {

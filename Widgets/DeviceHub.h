@@ -114,6 +114,7 @@ signals:
 private:
   void poll();
   void release(std::shared_ptr<void> part);
+  QString wrongChoice() const;
   devices::FramePairingOptions pairingOptions() const;
   devices::FramePairingOptions rightPairingOptions() const;
   std::vector<std::shared_ptr<devices::Source>> makeSources();

@@ -17,6 +17,7 @@
 #include "ValidationPage.h"
 #include "VideoPresenter.h"
 #include "VideoView.h"
+#include "WheelGuard.h"
 #include "WizardStepBar.h"
 #include "ui_HandEyeCalibrationPanel.h"
 
@@ -88,6 +89,10 @@ void HandEyeCalibrationPanel::Private::makePages()
   pages = { new handeye::DevicesPage(*workbench), new handeye::CameraPage(*workbench), new handeye::StylusPage(*workbench),
     new handeye::BallPage(*workbench), new handeye::CapturePage(*workbench), new handeye::ValidationPage(*workbench),
     new handeye::ComparisonPage(*workbench), new handeye::OverlayPage(*workbench), new handeye::FinishPage(*workbench) };
+  for (WizardPage* const each : pages)
+  {
+    new handeye::WheelGuard(*each);
+  }
   for (WizardPage* page : pages)
   {
     ui.pages->addWidget(page);

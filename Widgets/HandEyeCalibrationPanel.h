@@ -38,7 +38,8 @@ public:
   handeye::WizardStep currentStep() const;
   handeye::WizardPage* page(handeye::WizardStep step) const;
 
-  /// A file or folder that a person dropped or chose: a session, a recording, a mesh, a camera file, a stylus file.
+  /// A file or folder that a person dropped or chose: a session, a recording, a mesh, a camera file, a result of `handeye` (stylus,
+  /// calibration, phantom). What goes with one page opens that page.
   /// @return whether it could be made something of; what is wrong with it is shown on the page
   Q_INVOKABLE bool openFile(const QString& path);
 
@@ -57,6 +58,8 @@ protected:
   void showEvent(QShowEvent* event) override;
 
 private:
+  void openRecording(const QString& path);
+  void openResult(const QString& path);
   class Private;
   std::unique_ptr<Private> d;
 };

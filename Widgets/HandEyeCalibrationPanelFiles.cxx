@@ -7,7 +7,76 @@
 
 #include <QFileInfo>
 
+#include <QFile>
+#include <QRegularExpression>
+
 using handeye::WizardStep;
+
+namespace
+{
+
+constexpr qint64 MostBytesOfAResult = 16 << 20;
+
+/// What a result file says that it is: "stylus", "calibration", "phantom"...; empty for other files.
+QString resultKind(const QString& path)
+{
+  QFile file(path);
+  static const QRegularExpression schema(QStringLiteral(R"("schema"\s*:\s*"handeye-([a-z-]+)/)"));
+  return file.open(QIODevice::ReadOnly) ? schema.match(QString::fromUtf8(file.read(MostBytesOfAResult))).captured(1) : QString();
+}
+
+}  // namespace
+
+/// A folder with frames, or a sequence metafile: what for, the page says.
+void HandEyeCalibrationPanel::openRecording(const QString& path)
+{
+  switch (currentStep())
+  {
+    case WizardStep::Stylus:
+      workbench().pivot().calibrateRecording(path, workbench().devices().setup().stylusToTracker);
+      return;
+    case WizardStep::Comparison:
+      static_cast<handeye::ComparisonPage*>(page(WizardStep::Comparison))->chooseBoardRecording(path);
+      return;
+    case WizardStep::Capture:
+      workbench().capture().importRecording(path);
+      return;
+    case WizardStep::Validation:
+      workbench().validationCapture().importRecording(path);
+      return;
+    default:
+      goTo(WizardStep::Devices);
+      static_cast<handeye::DevicesPage*>(page(WizardStep::Devices))->chooseRecording(path);
+  }
+}
+
+/// A JSON file goes where it belongs; one that does not say what it is, where the page would take it from a dialog.
+void HandEyeCalibrationPanel::openResult(const QString& path)
+{
+  const QString kind = resultKind(path);
+  const bool isForThisPage = kind.isEmpty();
+  const WizardStep here = currentStep();
+  if (kind == QStringLiteral("stylus") || (isForThisPage && here == WizardStep::Stylus))
+  {
+    goTo(WizardStep::Stylus);
+    workbench().loadStylus(path);
+  }
+  else if (kind == QStringLiteral("phantom") || (isForThisPage && here == WizardStep::Overlay))
+  {
+    goTo(WizardStep::Overlay);
+    workbench().loadRegistration(path);
+  }
+  else if ((kind == QStringLiteral("calibration") && here != WizardStep::Camera) || (isForThisPage && here == WizardStep::Capture))
+  {
+    goTo(WizardStep::Capture);
+    workbench().loadCalibration(path);
+  }
+  else
+  {
+    goTo(WizardStep::Camera);
+    workbench().loadCamera(path);
+  }
+}
 
 bool HandEyeCalibrationPanel::openFile(const QString& path)
 {
@@ -21,58 +90,32 @@ bool HandEyeCalibrationPanel::openFile(const QString& path)
   {
     return false;
   }
-  if (file.isDir() && QFileInfo::exists(path + QStringLiteral("/session.json")))
+  const bool isSession = file.fileName() == QStringLiteral("session.json");
+  if (isSession || (file.isDir() && QFileInfo::exists(path + QStringLiteral("/session.json"))))
   {
-    workbench().openSession(path);
-    return true;
+    workbench().openSession(isSession ? file.path() : path);
   }
-  if (file.isDir() || ending == QStringLiteral("mha"))
+  else if (file.isDir() || ending == QStringLiteral("mha"))
   {
-    if (currentStep() == WizardStep::Stylus)
-    {
-      workbench().pivot().calibrateRecording(path, workbench().devices().setup().stylusToTracker);
-    }
-    else if (currentStep() == WizardStep::Comparison)
-    {
-      static_cast<handeye::ComparisonPage*>(page(WizardStep::Comparison))->chooseBoardRecording(path);
-    }
-    else if (currentStep() == WizardStep::Capture || currentStep() == WizardStep::Validation)
-    {
-      (currentStep() == WizardStep::Capture ? workbench().capture() : workbench().validationCapture()).importRecording(path);
-    }
-    else
-    {
-      goTo(WizardStep::Devices);
-      static_cast<handeye::DevicesPage*>(page(WizardStep::Devices))->chooseRecording(path);
-    }
-    return true;
+    openRecording(path);
   }
-  if (meshes.contains(ending))
+  else if (meshes.contains(ending))
   {
     goTo(WizardStep::Overlay);
     workbench().loadModel(path);
-    return true;
   }
-  if (currentStep() == WizardStep::Stylus && ending == QStringLiteral("json"))
+  else if (ending == QStringLiteral("json"))
   {
-    workbench().loadStylus(path);
-    return true;
+    openResult(path);
   }
-  if (currentStep() == WizardStep::Capture && ending == QStringLiteral("json"))
-  {
-    workbench().loadCalibration(path);
-    return true;
-  }
-  if (currentStep() == WizardStep::Overlay && ending == QStringLiteral("json"))
-  {
-    workbench().loadRegistration(path);
-    return true;
-  }
-  if (cameras.contains(ending) || ending == QStringLiteral("json"))
+  else if (cameras.contains(ending))
   {
     goTo(WizardStep::Camera);
     workbench().loadCamera(path);
-    return true;
   }
-  return false;
+  else
+  {
+    return false;
+  }
+  return true;
 }

@@ -81,6 +81,7 @@ OverlayPage::OverlayPage(HandEyeWorkbench& workbench, QWidget* parent)
   connect(&workbench_, &HandEyeWorkbench::registrationChanged, this, &OverlayPage::showRegistration);
   connect(ui_->keepButton, &QPushButton::clicked, &workbench_, &HandEyeWorkbench::keepRegistration);
   ui_->keepButton->hide();
+  setState({});
   tipTimer_.setInterval(TipIntervalMs);
   connect(&tipTimer_, &QTimer::timeout, this, &OverlayPage::followTip);
   tipTimer_.start();
@@ -231,7 +232,9 @@ void OverlayPage::setLook(const OverlayLook& look, double opacity)
 
 void OverlayPage::setState(const OverlayState& state)
 {
-  ui_->overlayLabel->setText(state.problem.isEmpty() ? tr("The model is drawn where the calibration puts it.") : state.problem);
+  ui_->overlayLabel->setText(!state.problem.isEmpty() ? state.problem
+      : state.isDrawn                                 ? tr("The model is drawn where the calibration puts it.")
+                                                      : tr("The model is not drawn: no picture has come yet."));
   ui_->haloBox->setEnabled(state.hasHalo);
   ui_->eyesLabel->setText(ui_->eyesBox->currentIndex() > 0 ? state.stereoProblem : QString());
   ui_->eyesLabel->setVisible(!ui_->eyesLabel->text().isEmpty());

@@ -214,6 +214,7 @@ void OverlayPresenter::draw(const LiveView& shown, OverlayTransformSet& transfor
   showStylus(pipeline, workbench_.stylusTipToCamera(shown.frame), transforms["StylusTipToCamera"]);
   OverlayState state;
   state.problem = QString::fromStdString(pose.isUsable() && pose.message.empty() ? pipeline->GetProblem() : pose.message);
+  state.isDrawn = pose.isUsable();
   state.delaySec = pose.delaySec;
   state.hasHalo = workbench_.calibrationCovariance().has_value();
   state.stereoProblem = stereoProblem(shown);
@@ -285,7 +286,12 @@ void OverlayPresenter::showStylus(vtkHandEyeOverlayPipeline* pipeline, const std
 void OverlayPresenter::startRecording(const QString& ending)
 {
   const QString folder = workbench_.capture().isOpen() ? workbench_.sessionFolder() + QStringLiteral("/videos") : QString();
-  recording_->start(folder, ending);
+  constexpr double sharpEnough = 0.95;
+  const double scale = view_.shownScale();
+  recording_->start(folder, ending,
+    scale < sharpEnough ? tr("The view shows the video at %1 % of its size, and the recording is no sharper: enlarge the view.")
+                            .arg(100 * scale, 0, 'f', 0)
+                        : QString());
 }
 
 /// What was rendered of the frame that was shown last.

@@ -21,7 +21,8 @@ namespace handeye
 /// What a person is told about the overlay as it was last drawn.
 struct OverlayState
 {
-  QString problem;       ///< why the model is not drawn, or fades, a sentence; empty if all is well
+  QString problem;  ///< why the model is not drawn, or fades, a sentence; empty if all is well
+  bool isDrawn = false;
   double delaySec = 0;   ///< of the smoothing
   bool hasHalo = false;  ///< the calibration's covariance is known
   std::optional<double> predictedErrorPx;

@@ -33,7 +33,7 @@ void OverlayRecordingTask::fail(const QString& message)
   emit changed(state_);
 }
 
-bool OverlayRecordingTask::start(const QString& folder, const QString& ending)
+bool OverlayRecordingTask::start(const QString& folder, const QString& ending, const QString& note)
 {
   if (isRecording() || state_.phase == Phase::Finishing)
   {
@@ -41,6 +41,7 @@ bool OverlayRecordingTask::start(const QString& folder, const QString& ending)
   }
   const QString time = QDateTime::currentDateTime().toString(QStringLiteral("yyyyMMdd-HHmmss-zzz"));
   state_ = {};
+  state_.message = note_ = note;
   state_.path = QDir(folder).filePath(QStringLiteral("overlay-%1%2").arg(time, ending));
   try
   {
@@ -93,7 +94,7 @@ void OverlayRecordingTask::poll()
   state_.leftOutCount = written.leftOutCount;
   state_.message = written.leftOutCount > 0
     ? tr("%1 pictures are left out: %2.").arg(written.leftOutCount).arg(QString::fromStdString(written.leftOutReason))
-    : QString();
+    : note_;
   if (!written.error.empty())
   {
     fail(QString::fromStdString(written.error));

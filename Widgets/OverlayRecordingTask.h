@@ -45,9 +45,9 @@ public:
   explicit OverlayRecordingTask(QObject* parent = nullptr);
 
   /// Begins a video in this folder (of the session; empty: none is open), which is made. @param ending ".mp4" or ".avi"
-  /// @return false where that is not possible:
-  ///   the state says why
-  bool start(const QString& folder, const QString& ending);
+  /// @param note a sentence for the state's message while nothing else is to be said
+  /// @return false where that is not possible: the state says why
+  bool start(const QString& folder, const QString& ending, const QString& note = {});
   void stop();
   bool isRecording() const { return state_.phase == OverlayRecordingState::Phase::Recording; }
 
@@ -66,6 +66,7 @@ private:
 
   std::unique_ptr<LiveOverlayRecorder> recorder_;
   OverlayRecordingState state_;
+  QString note_;
   QElapsedTimer clock_;
   QTimer timer_;
 };

@@ -192,6 +192,15 @@ bool VideoView::readShown(cv::Mat& bgr) const
   return d->layout ? d->stereo->ReadShown(bgr) : d->pipeline->ReadShown(bgr);
 }
 
+double VideoView::shownScale() const
+{
+  using Layout = vtkHandEyeStereoOverlay::Layout;
+  const int columns = d->layout == Layout::SideBySide ? 2 : 1, rows = d->layout == Layout::TopBottom ? 2 : 1;
+  const int* const size = d->window->GetActualSize();
+  const QSize frame = this->frameSize();
+  return frame.isEmpty() ? 0 : std::min(double(size[0]) / (columns * frame.width()), double(size[1]) / (rows * frame.height()));
+}
+
 void VideoView::setFrame(const cv::Mat& bgr)
 {
   d->pipeline->SetVideoFrame(bgr);

@@ -80,7 +80,10 @@ public:
   void setStereo(const std::optional<vtkHandEyeStereoOverlay::Layout>& layout, bool isSwapped = false);
   std::optional<vtkHandEyeStereoOverlay::Layout> stereo() const;
 
-  /// What was rendered last, without marks and bars, in the video's own pixels: see vtkHandEyeOverlayPipeline::ReadShown().
+  /// How large a pixel of the video is, in pixels of the screen: below 1 the view shows less than the video has; 0 without a video.
+  double shownScale() const;
+
+  /// What was rendered last, without marks and bars, brought to the video's size: see vtkHandEyeOverlayPipeline::ReadShown().
   bool readShown(cv::Mat& bgr) const;
 
   /// Renders soon, once for many requests; needed after changes to the pipeline only.

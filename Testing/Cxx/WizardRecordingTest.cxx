@@ -241,6 +241,21 @@ void WizardRecordingTest::recording_FromFirstPageToLast()
   }
   QCOMPARE(panel.currentStep(), WizardStep::Devices);
   QVERIFY(workbench.calibration()->isUsable() && workbench.validation() && workbench.modelToPhantom());
+
+  // Result files go where they belong, whatever page is open when they are dropped.
+  HandEyeCalibrationPanel other(nullptr, nullptr);
+  testing_widgets::show(other, QSize(1280, 800));
+  const Eigen::Isometry3d markerToCamera = workbench.calibration()->calibration.markerToCamera;
+  for (const auto& [name, step] : { std::pair("stylus", WizardStep::Stylus), std::pair("calibration", WizardStep::Capture),
+         std::pair("phantom", WizardStep::Overlay) })
+  {
+    QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(workbench.documentPath(QString::fromLatin1(name))), PatienceMs);
+    QVERIFY(other.openFile(workbench.documentPath(QString::fromLatin1(name))));
+    QCOMPARE(other.currentStep(), step);
+  }
+  QTRY_VERIFY_WITH_TIMEOUT(other.workbench().modelToPhantom().has_value(), PatienceMs);
+  QVERIFY(other.workbench().stylus() && other.workbench().camera());
+  QVERIFY(other.workbench().calibration()->calibration.markerToCamera.isApprox(markerToCamera, 1e-6));
 }
 
 void WizardRecordingTest::samples_ExcludeDeleteUndoRedo()
