@@ -139,11 +139,12 @@ float halo()
     nearness += covered / depthMm(texCoord + away * texel);
     found += covered;
   }
-  if (found < 0.5)
+  // Around a large ellipse the search has gaps that a thin part fits into; the rings decide then.
+  if (found < 0.5 && sizeOf(search) < 288.0)
   {
     return 0.0;
   }
-  mat2 ellipse = haloEllipse(constant, linear, quadratic, nearness / found);
+  mat2 ellipse = found < 0.5 ? search / 1.1 : haloEllipse(constant, linear, quadratic, nearness / found);
   for (int ring = 1; ring <= 3; ++ring)
   {
     for (int i = 0; i < haloSteps; ++i)

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 vtkStandardNewMacro(vtkSlicerHandEyeCalibrationLogic);
 
@@ -132,6 +133,13 @@ bool vtkSlicerHandEyeCalibrationLogic::RunStep(unsigned long event, const std::f
   else if (event != vtkCommand::NoEvent)
   {
     this->InvokeEvent(event);
+  }
+  if (!this->Internal->IsRunning)
+  {
+    for (const std::function<void()>& forget : std::exchange(this->Internal->Forgetting, {}))
+    {
+      forget();
+    }
   }
   return end.isUsable;
 }

@@ -57,7 +57,8 @@ public:
     ValidatedEvent,
     PhantomRegisteredEvent,  ///< there is a new modelToPhantom
     StepFailedEvent,         ///< GetLastMessage() says why
-    ProgressEvent            ///< between frames; its call data is a double, 0 to 1
+    ProgressEvent,           ///< between frames; its call data is a double, 0 to 1
+    ResultsForgottenEvent    ///< some results, or all, are not there any more
   };
 
   // Inputs
@@ -139,8 +140,12 @@ public:
   /// The page of writeValidationReport(), with the pictures of the recording that was validated on.
   bool SaveValidationReport(const std::string& folder);
 
-  /// There is no result any more, and no evaluated capture: a new session begins. No event but ModifiedEvent; not while a step is running.
+  /// There is no result any more, and no evaluated capture: a new session begins. Fires ResultsForgottenEvent. While a step is running,
+  /// which may let the user interface work, this and the next two wait until it has ended.
   void ForgetResults();
+  /// The calibration, with its validation and capture, was withdrawn; so was the registration. Fire ResultsForgottenEvent where there was one.
+  void ForgetCalibration();
+  void ForgetPhantomRegistration();
 
   /// Stops the running step after the frame it is at; it then fails. No effect while no step is running.
   void RequestCancel();
@@ -152,6 +157,9 @@ public:
 
   // Results
   // ------------------------------------------------------------------------------------------------------------------------------
+
+  /// Whether the stylus' tip comes with the file or step that says how exact it is; not one that was set.
+  bool HasStylusDocument();
 
   /// mm. @return false, and `tip_Stylus` as it was, while there is none
   bool GetStylusTip(double tip_Stylus[3]);

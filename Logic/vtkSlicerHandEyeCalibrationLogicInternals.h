@@ -16,6 +16,7 @@
 #include <vtkTable.h>
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -86,6 +87,7 @@ public:
   std::string LastMessage;
   std::vector<std::string> LastWarnings;
   bool IsRunning = false;
+  std::vector<std::function<void()>> Forgetting;  ///< asked for while a step was running
   std::atomic<bool> CancelRequested{ false };
 
   vtkNew<vtkTable> SampleTable;
@@ -102,5 +104,6 @@ public:
   StepEnd Calibrate(EvaluatedCapture capture, SolverMethods method);
 
   void UpdateSampleTable();
+  void ForgetCalibration();
   void UpdateValidationTable();
 };

@@ -152,18 +152,58 @@ void vtkSlicerHandEyeCalibrationLogic::ForgetResults()
 {
   if (this->Internal->IsRunning)
   {
+    this->Internal->Forgetting.push_back([this] { this->ForgetResults(); });
     return;
   }
   this->Internal->Stylus.reset();
-  this->Internal->Calibration.reset();
-  this->Internal->Validation.reset();
   this->Internal->Phantom.reset();
-  this->Internal->Capture.reset();
+  this->Internal->ForgetCalibration();
   this->Internal->LastMessage.clear();
   this->Internal->LastWarnings.clear();
-  this->Internal->UpdateSampleTable();
-  this->Internal->UpdateValidationTable();
   this->Modified();
+  this->InvokeEvent(ResultsForgottenEvent);
+}
+
+void vtkSlicerHandEyeCalibrationLogic::ForgetCalibration()
+{
+  if (this->Internal->IsRunning)
+  {
+    this->Internal->Forgetting.push_back([this] { this->ForgetCalibration(); });
+  }
+  else if (this->Internal->Calibration)
+  {
+    this->Internal->ForgetCalibration();
+    this->Modified();
+    this->InvokeEvent(ResultsForgottenEvent);
+  }
+}
+
+void vtkSlicerHandEyeCalibrationLogic::ForgetPhantomRegistration()
+{
+  if (this->Internal->IsRunning)
+  {
+    this->Internal->Forgetting.push_back([this] { this->ForgetPhantomRegistration(); });
+  }
+  else if (this->Internal->Phantom)
+  {
+    this->Internal->Phantom.reset();
+    this->Modified();
+    this->InvokeEvent(ResultsForgottenEvent);
+  }
+}
+
+void vtkSlicerHandEyeCalibrationLogic::Internals::ForgetCalibration()
+{
+  this->Calibration.reset();
+  this->Validation.reset();
+  this->Capture.reset();
+  this->UpdateSampleTable();
+  this->UpdateValidationTable();
+}
+
+bool vtkSlicerHandEyeCalibrationLogic::HasStylusDocument()
+{
+  return this->Internal->Stylus && !this->Internal->Stylus->document.is_null();
 }
 
 bool vtkSlicerHandEyeCalibrationLogic::GetStylusTip(double tip_Stylus[3])

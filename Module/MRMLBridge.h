@@ -36,4 +36,7 @@ public:
 
   /// Sets the node of this name, which is made if there is none. @param description of what it maps, for the person who reads the node
   virtual void publishTransform(const QString& name, vtkMatrix4x4* toParent, const QString& description) = 0;
+
+  /// Removes the node of this name if this bridge has published it: what it said does not hold any more.
+  virtual void withdrawTransform(const QString& name) = 0;
 };

@@ -4,6 +4,7 @@
 // In 3D Slicer.
 #include "MRMLBridge.h"
 
+#include <QSet>
 #include <vtkMRMLLinearTransformNode.h>
 #include <vtkMRMLScene.h>
 #include <vtkMatrix4x4.h>
@@ -58,6 +59,16 @@ public:
     }
     node->SetDescription(description.toUtf8().constData());
     node->SetMatrixTransformToParent(toParent);
+    this->Published.insert(name);
+  }
+
+  void withdrawTransform(const QString& name) override
+  {
+    vtkMRMLLinearTransformNode* const node = this->Published.remove(name) ? this->find(name) : nullptr;
+    if (node)
+    {
+      this->Scene->RemoveNode(node);
+    }
   }
 
 private:
@@ -89,6 +100,7 @@ private:
   }
 
   vtkWeakPointer<vtkMRMLScene> Scene;
+  QSet<QString> Published;
 };
 
 }  // namespace

@@ -44,7 +44,7 @@ void qSlicerHandEyeCalibrationModuleWidgetPrivate::observe(vtkSlicerHandEyeCalib
   if (newLogic)
   {
     using Logic = vtkSlicerHandEyeCalibrationLogic;
-    for (const unsigned long event : { Logic::CameraCalibratedEvent, Logic::PhantomRegisteredEvent })
+    for (const unsigned long event : { Logic::CameraCalibratedEvent, Logic::PhantomRegisteredEvent, Logic::ResultsForgottenEvent })
     {
       this->observers.push_back(newLogic->AddObserver(event, this, &qSlicerHandEyeCalibrationModuleWidgetPrivate::publish));
     }
@@ -57,18 +57,23 @@ void qSlicerHandEyeCalibrationModuleWidgetPrivate::publish()
   {
     return;
   }
-  if (vtkMatrix4x4* const markerToCamera = this->logic->GetMarkerToCamera())
+  const auto keep = [this](const char* name, vtkMatrix4x4* matrix, const QString& description)
   {
-    this->bridge->publishTransform(QStringLiteral("MarkerToCamera"), markerToCamera,
-      qSlicerHandEyeCalibrationModuleWidget::tr(
-        "From the camera's marker (as tracked) to the camera (OpenCV: x right, y down, z forward), mm"));
-  }
-  if (vtkMatrix4x4* const modelToPhantom = this->logic->GetModelToPhantom())
-  {
-    this->bridge->publishTransform(QStringLiteral("ModelToPhantom"), modelToPhantom,
-      qSlicerHandEyeCalibrationModuleWidget::tr(
-        "From the model, its numbers as they stand in its file (open it as RAS), to the phantom's marker, mm"));
-  }
+    if (matrix)
+    {
+      this->bridge->publishTransform(QString::fromLatin1(name), matrix, description);
+    }
+    else
+    {
+      this->bridge->withdrawTransform(QString::fromLatin1(name));
+    }
+  };
+  keep("MarkerToCamera", this->logic->GetMarkerToCamera(),
+    qSlicerHandEyeCalibrationModuleWidget::tr(
+      "From the camera's marker (as tracked) to the camera (OpenCV: x right, y down, z forward), mm"));
+  keep("ModelToPhantom", this->logic->GetModelToPhantom(),
+    qSlicerHandEyeCalibrationModuleWidget::tr(
+      "From the model, its numbers as they stand in its file (open it as RAS), to the phantom's marker, mm"));
 }
 
 void qSlicerHandEyeCalibrationModuleWidgetPrivate::fillTransformNames()

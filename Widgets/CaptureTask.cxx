@@ -43,11 +43,23 @@ CaptureTask::CaptureTask(WorkThread& work, QObject* parent)
 
 CaptureTask::~CaptureTask() = default;
 
-/// News from the work's thread to this one.
 void CaptureTask::tell(std::function<void(CaptureTask&)> news)
 {
   QMetaObject::invokeMethod(
-    this, [this, told = std::move(news)] { told(*this); }, Qt::QueuedConnection);
+    this,
+    [this, session = work_->sessionCount, told = std::move(news)]
+    {
+      if (session == session_)
+      {
+        told(*this);
+      }
+    },
+    Qt::QueuedConnection);
+}
+
+bool CaptureTask::isOutdated(const Work& work) const
+{
+  return thread_.isEnding() || work.sessionCount != session_;
 }
 
 /// A step in the work's thread; what goes wrong there is told.
@@ -102,10 +114,15 @@ void CaptureTask::openFolder(const QString& folder)
       {
         work.session.emplace(io::Session::openOrCreate(path));
       }
-      catch (...)
+      catch (const std::exception& error)
       {
-        tell([](CaptureTask& task) { task.close(); });
-        throw;
+        tell(
+          [message = QString::fromUtf8(error.what())](CaptureTask& task)
+          {
+            task.close();
+            emit task.failed(message);
+          });
+        return;
       }
       std::map<std::string, nlohmann::json> documents;
       for (const std::string& name : work.session->documentNames())
@@ -135,9 +152,14 @@ void CaptureTask::close()
   isOpen_ = false;
   folder_.clear();
   samples_.clear();
+  evaluations_ = 0;
+  isBroken_ = false;
+  setBusy(false);
   post(
-    [](Work& work)
+    [session = ++session_](Work& work)
     {
+      work.sessionCount = session;
+      work.isTakeAsked = false;
       work.live.reset();
       work.session.reset();
       work.deleted.clear();

@@ -16,6 +16,7 @@
 #include <QStringList>
 #include <QVector>
 
+#include <atomic>
 #include <map>
 #include <memory>
 #include <optional>
@@ -118,7 +119,10 @@ signals:
 private:
   struct Work;
   void post(std::function<void(Work&)> step);
+  /// From the work's thread; news of a session that is not the open one any more are dropped.
   void tell(std::function<void(CaptureTask&)> news);
+  /// In the work's thread: nobody waits for what is being done.
+  bool isOutdated(const Work& work) const;
   void setBusy(bool isBusy);
   void setHint(const QString& hint);
   void addSample(const CaptureSample& sample, bool isNew);
@@ -134,8 +138,9 @@ private:
   QMap<int, CaptureSample> samples_;
   QString folder_, hint_;
   bool isOpen_ = false, isHandsFree_ = false, isBusy_ = false;
-  int evaluations_ = 0;    ///< under way, after inputs were changed
-  bool isBroken_ = false;  ///< the last one failed
+  std::atomic<int> session_{ 0 };  ///< counts the folders that were opened or let go of
+  int evaluations_ = 0;            ///< under way, after inputs were changed
+  bool isBroken_ = false;          ///< the last one failed
 };
 
 }  // namespace handeye

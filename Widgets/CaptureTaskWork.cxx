@@ -85,7 +85,7 @@ void CaptureTask::evaluateAll(Work& work)
   const int total = int(work.session->samples().size());
   for (const auto& stored : work.session->samples())
   {
-    if (thread_.isEnding())
+    if (isOutdated(work))
     {
       return;
     }
@@ -196,7 +196,7 @@ void CaptureTask::readRecording(Work& work, const std::string& path, const ToolN
   const BallDetector detector(camera, work.inputs->ballRadiusMm, work.inputs->detection);
   int taken = 0, refused = 0;
   std::string reason;
-  for (int frame = 0; frame < recording.frameCount() && !thread_.isCancelled(); ++frame)
+  for (int frame = 0; frame < recording.frameCount() && !thread_.isCancelled() && !isOutdated(work); ++frame)
   {
     tell([done = frame + 1, total = recording.frameCount()](CaptureTask& task)
       { emit task.progress(done, total, tr("looking for the ball in the recording")); });

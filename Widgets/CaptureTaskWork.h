@@ -21,6 +21,7 @@ struct CaptureTask::Work
   std::optional<CaptureInputs> inputs;
   std::unique_ptr<devices::LiveCapture> live;
   std::set<int> deleted;
+  int sessionCount = 0;  ///< of CaptureTask::session_, when the folder was opened
   bool isHandsFree = false, isTakeAsked = false;
   devices::LiveCapture::Step::Status lastStatus = devices::LiveCapture::Step::Status::Accepted;
   std::string lastMessage;

@@ -71,6 +71,8 @@ ComparisonPage::ComparisonPage(HandEyeWorkbench& workbench, QWidget* parent)
   connect(&workbench_, &HandEyeWorkbench::sessionOpened, this,
     [this]
     {
+      boardRecording_.clear();
+      otherCaptures_.clear();
       ui_->reportLabel->hide();
       showResult();
       const QString report = workbench_.comparisonFolder() + QStringLiteral("/report.html");
@@ -229,6 +231,8 @@ void ComparisonPage::showPlots(const ComparisonResult& result)
   axes.xTitle = tr("Samples in random subsets");
   axes.yTitle = tr("Median of the mean errors [px]");
   axes.xUnit = tr("samples");
+  axes.description =
+    tr("Median of the mean projection errors (px) of random subsets against their number of samples, a line a method.");
   axes.leastAir = 0.5;
   ui_->samplesPlot->setAxes(axes);
   ui_->samplesPlot->setSeries(seriesOf(result, samples));

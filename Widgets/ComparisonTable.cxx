@@ -111,7 +111,9 @@ void ComparisonTable::addMethod(const ComparisonResult& result, int index)
     this->setItem(row, column, item);
   };
   this->setItem(row, Name, new QTableWidgetItem);
+  const QString words = isAlike ? tr("not told apart from the first") : isApart ? tr("failed where others did not") : QString();
   this->item(row, Name)->setData(Qt::AccessibleTextRole, QString::fromStdString(method.name));
+  this->item(row, Name)->setData(Qt::AccessibleDescriptionRole, words);
   if (method.isUsable())
   {
     const QLocale locale;
@@ -160,10 +162,11 @@ void ComparisonTable::fitReasons()
 
 QString ComparisonTable::toText() const
 {
-  QStringList lines{ tr("Method\tMean [px]\tStd [px]\tMin [px]\tMax [px]\tErrors") };
+  QStringList lines{ tr("Method\tStanding\tMean [px]\tStd [px]\tMin [px]\tMax [px]\tErrors") };
   for (int row = 0; row < this->rowCount(); ++row)
   {
-    QStringList cells{ this->item(row, Name)->data(Qt::AccessibleTextRole).toString() };
+    const QTableWidgetItem* name = this->item(row, Name);
+    QStringList cells{ name->data(Qt::AccessibleTextRole).toString(), name->data(Qt::AccessibleDescriptionRole).toString() };
     for (int column = Mean; column < ColumnCount && this->item(row, column); ++column)
     {
       cells << this->item(row, column)->text();

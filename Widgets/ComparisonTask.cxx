@@ -149,9 +149,10 @@ void ComparisonTask::writeReport(const QString& folder)
   }
   begin();
   emit progressed(tr("writing the report"), 0, 0);
-  const report::PlotDrawer draw = drawInWindowThread(*this, [thread = work_.get()] { return thread->isEnding(); });
+  const report::PlotDrawer draw =
+    drawInWindowThread(*this, [thread = work_.get(), isCancelled = isCancelled_] { return *isCancelled || thread->isEnding(); });
   work_->post(
-    [this, folder, comparison = result_, draw]
+    [this, folder, comparison = result_, draw, isCancelled = isCancelled_]
     {
       QString message;
       try
@@ -165,9 +166,13 @@ void ComparisonTask::writeReport(const QString& folder)
         message = QString::fromUtf8(error.what());
       }
       tell(
-        [this, folder, message]
+        [this, folder, message, isCancelled]
         {
           end();
+          if (*isCancelled)
+          {
+            return;  // nobody waits for it; what was written is complete, or not there
+          }
           if (message.isEmpty())
           {
             emit reportWritten(folder + QStringLiteral("/report.html"));

@@ -105,7 +105,6 @@ ErrorDistancePlot::ErrorDistancePlot(QWidget* parent)
   : QWidget(parent)
   , d(std::make_unique<Private>())
 {
-  this->setAccessibleName(tr("Projection error against distance"));
   d->layout = new QStackedLayout(this);
   d->nothing = new QLabel(tr("No errors to show yet"), this);
   d->nothing->setAlignment(Qt::AlignCenter);
@@ -120,9 +119,6 @@ ErrorDistancePlot::ErrorDistancePlot(QWidget* parent)
   d->canvas = new ChartCanvas(d->page);
   column->addWidget(d->legend);
   column->addWidget(d->canvas, 1);
-  d->canvas->setAccessibleName(this->accessibleName());
-  d->canvas->setToolTip(tr("Projection error (px) of each sample against its distance from the camera (mm); the line is the mean. "
-                           "Point at a mark for its numbers."));
   d->layout->addWidget(d->nothing);
   d->layout->addWidget(d->page);
   d->canvas->scene()->AddItem(d->chart);
@@ -137,6 +133,7 @@ ErrorDistancePlot::ErrorDistancePlot(QWidget* parent)
       chart->SetSize(vtkRectf(margin, 1.5F * margin, float(size.width()) - 2 * margin, float(size.height()) - 2.5F * margin));
     });
   d->canvas->setToolTipAt([this](const QPointF& place) { return d->wordsAt(place); });
+  this->setAxes({});
 }
 
 ErrorDistancePlot::~ErrorDistancePlot() = default;
@@ -151,6 +148,9 @@ void ErrorDistancePlot::setSeries(const QVector<ErrorSeries>& series)
 void ErrorDistancePlot::setAxes(const ErrorPlotAxes& axes)
 {
   d->axes = axes;
+  this->setAccessibleName(tr("%1 against %2").arg(axes.yTitle, axes.xTitle));
+  d->canvas->setAccessibleName(this->accessibleName());
+  d->canvas->setToolTip(axes.description + QLatin1Char(' ') + tr("Point at a mark for its numbers."));
   d->build(*this);
   d->canvas->update();
 }

@@ -26,6 +26,9 @@ struct ErrorPlotAxes
   double leastAir = 10;        ///< left and right of the points, in the unit of x
   bool isLogarithmic = false;  ///< of the errors: where they differ by so much that the small ones would lie on the axis
   bool isJoined = false;       ///< points of a series are joined by lines
+  /// What is seen, a sentence.
+  QString description = QCoreApplication::translate("ErrorDistancePlot",
+    "Projection error (px) of each sample against its distance from the camera (mm); lines are the means of up to four series.");
 };
 
 /// Projection error (px) against distance from the camera (mm): points of one marker and colour per series, and the mean of each

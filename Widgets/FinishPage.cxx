@@ -46,7 +46,7 @@ void FinishPage::enter()
   {
     sources.stylus = fileOf("stylus");
   }
-  if (isCalibrated && workbench_.modelToPhantom())
+  if (isCalibrated && workbench_.registrationOfModel())
   {
     sources.registration = fileOf("phantom");
     sources.model = workbench_.modelPath().toStdString();

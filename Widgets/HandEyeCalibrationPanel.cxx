@@ -45,7 +45,9 @@ public:
   void refresh();
   void showMessage(const QString& text, handeye::Level level);
   void showProgress(int done, int total, const QString& what);
+  void connectRefusals();
   void refuse(WizardStep step, const QString& message);
+  void forgive(WizardStep of);
   WizardPage& currentPage() const { return *pages[std::size_t(step)]; }
 
   HandEyeCalibrationPanel& q;
@@ -60,7 +62,7 @@ public:
   std::unique_ptr<handeye::LogicLink> logicLink;
   std::array<WizardPage*, handeye::WizardStepCount> pages{};
   WizardStep step = WizardStep::Devices;
-  QString refusal;  ///< the last one of this page; empty if there is none
+  std::array<QString, handeye::WizardStepCount> refusals;  ///< the last one of each page; empty if there is none
 };
 
 HandEyeCalibrationPanel::Private::Private(HandEyeCalibrationPanel& panel, NavigationHost* navigationHost)
@@ -126,44 +128,10 @@ void HandEyeCalibrationPanel::Private::connectAll()
   connect(ui.backButton, &QPushButton::clicked, &q, &HandEyeCalibrationPanel::goBack);
   connect(ui.cancelButton, &QPushButton::clicked, workbench.get(), &HandEyeWorkbench::cancelWork);
   connect(workbench.get(), &HandEyeWorkbench::stateChanged, &q, [this] { refresh(); });
-  connect(workbench.get(), &HandEyeWorkbench::sessionOpened, &q,
-    [this]
-    {
-      refusal.clear();
-      refresh();
-    });
-  connect(workbench.get(), &HandEyeWorkbench::refused, &q, [this](WizardStep of, const QString& message) { refuse(of, message); });
-  const auto forget = [this](WizardStep of)
-  {
-    return [this, of]
-    {
-      if (step == of)
-      {
-        refusal.clear();
-        refresh();
-      }
-    };
-  };
-  connect(workbench.get(), &HandEyeWorkbench::cameraChanged, &q, forget(WizardStep::Camera));
-  connect(workbench.get(), &HandEyeWorkbench::stylusChanged, &q, forget(WizardStep::Stylus));
-  connect(workbench.get(), &HandEyeWorkbench::ballChanged, &q, forget(WizardStep::Ball));
-  connect(workbench.get(), &HandEyeWorkbench::latencyChanged, &q, forget(WizardStep::Ball));
-  connect(workbench.get(), &HandEyeWorkbench::modelChanged, &q, forget(WizardStep::Overlay));
-  connect(&workbench->comparison(), &handeye::ComparisonTask::changed, &q, forget(WizardStep::Comparison));
+  connectRefusals();
   // After the page, which takes more room then.
   connect(&workbench->comparison(), &handeye::ComparisonTask::finished, &q, [this] { refresh(); });
   connect(&workbench->comparison(), &handeye::ComparisonTask::reportWritten, &q, [this] { refresh(); });
-  connect(&workbench->capture(), &handeye::CaptureTask::accepted, &q, forget(WizardStep::Capture));
-  connect(&workbench->validationCapture(), &handeye::CaptureTask::accepted, &q, forget(WizardStep::Validation));
-  connect(&workbench->pivot(), &handeye::PivotTask::collectingChanged, &q,
-    [this]
-    {
-      if (workbench->pivot().isCollecting())
-      {
-        refusal.clear();
-      }
-      refresh();
-    });
   for (handeye::CaptureTask* task : { &workbench->capture(), &workbench->validationCapture() })
   {
     connect(task, &handeye::CaptureTask::progress, &q,
@@ -203,6 +171,65 @@ void HandEyeCalibrationPanel::Private::connectAll()
     });
 }
 
+/// What was refused is said until it has been made good.
+void HandEyeCalibrationPanel::Private::connectRefusals()
+{
+  using handeye::CaptureTask;
+  HandEyeWorkbench* const bench = workbench.get();
+  connect(bench, &HandEyeWorkbench::refused, &q, [this](WizardStep of, const QString& message) { refuse(of, message); });
+  connect(bench, &HandEyeWorkbench::sessionOpened, &q,
+    [this]
+    {
+      refusals.fill({});
+      refresh();
+    });
+  const auto forgiving = [this](WizardStep of) { return [this, of] { forgive(of); }; };
+  connect(bench, &HandEyeWorkbench::cameraChanged, &q, forgiving(WizardStep::Camera));
+  connect(bench, &HandEyeWorkbench::stylusChanged, &q, forgiving(WizardStep::Stylus));
+  connect(bench, &HandEyeWorkbench::ballChanged, &q, forgiving(WizardStep::Ball));
+  connect(bench, &HandEyeWorkbench::latencyChanged, &q, forgiving(WizardStep::Ball));
+  connect(bench, &HandEyeWorkbench::modelChanged, &q, forgiving(WizardStep::Overlay));
+  connect(bench, &HandEyeWorkbench::registrationChanged, &q,
+    [this]
+    {
+      if (workbench->registrationOfModel())
+      {
+        forgive(WizardStep::Overlay);
+      }
+    });
+  connect(&workbench->comparison(), &handeye::ComparisonTask::changed, &q,
+    [this]
+    {
+      if (workbench->comparison().isWorking())
+      {
+        forgive(WizardStep::Comparison);
+      }
+      refresh();
+    });
+  for (const auto& [task, of] :
+    { std::pair(&workbench->capture(), WizardStep::Capture), std::pair(&workbench->validationCapture(), WizardStep::Validation) })
+  {
+    connect(task, &CaptureTask::accepted, &q, forgiving(of));
+    connect(task, &CaptureTask::busyChanged, &q,
+      [this, of = of, task = task]
+      {
+        if (task->isBusy())
+        {
+          forgive(of);
+        }
+      });
+  }
+  connect(&workbench->pivot(), &handeye::PivotTask::collectingChanged, &q,
+    [this]
+    {
+      if (workbench->pivot().isCollecting())
+      {
+        forgive(WizardStep::Stylus);
+      }
+      refresh();
+    });
+}
+
 void HandEyeCalibrationPanel::Private::showProgress(int done, int total, const QString& what)
 {
   ui.progressBar->setRange(0, total);
@@ -213,11 +240,15 @@ void HandEyeCalibrationPanel::Private::showProgress(int done, int total, const Q
 
 void HandEyeCalibrationPanel::Private::refuse(WizardStep of, const QString& message)
 {
-  if (of == step || step == WizardStep::Finish)
-  {
-    refusal = message;
-    refresh();
-  }
+  // The last page has no work of its own: what fails there is another page's.
+  refusals[std::size_t(step == WizardStep::Finish ? step : of)] = message;
+  refresh();
+}
+
+void HandEyeCalibrationPanel::Private::forgive(WizardStep of)
+{
+  refusals[std::size_t(of)].clear();
+  refresh();
 }
 
 void HandEyeCalibrationPanel::Private::showMessage(const QString& text, handeye::Level level)
@@ -256,7 +287,7 @@ void HandEyeCalibrationPanel::Private::refresh()
   ui.backButton->setEnabled(step != WizardStep::Devices);
   ui.reasonLabel->setText(problem.isEmpty() || isLast ? QString() : HandEyeCalibrationPanel::tr("Next is closed: %1").arg(problem));
   ui.reasonLabel->setVisible(!ui.reasonLabel->text().isEmpty() && missing.isEmpty());
-  if (!refusal.isEmpty())
+  if (const QString& refusal = refusals[std::size_t(step)]; !refusal.isEmpty())
   {
     showMessage(refusal, handeye::Level::Error);
   }
@@ -316,8 +347,11 @@ WizardPage* HandEyeCalibrationPanel::page(WizardStep step) const
 void HandEyeCalibrationPanel::goTo(WizardStep step)
 {
   d->currentPage().leave();
+  if (d->step != step)
+  {
+    d->refusals[std::size_t(d->step)].clear();
+  }
   d->step = step;
-  d->refusal.clear();
   d->steps->setCurrent(step);
   for (WizardPage* const page : d->pages)
   {

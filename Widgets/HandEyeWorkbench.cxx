@@ -15,7 +15,11 @@ namespace handeye
 HandEyeWorkbench::HandEyeWorkbench(QObject* parent)
   : QObject(parent)
   , work_(std::make_unique<WorkThread>(
-      [this](const char* message) { tell([this, text = QString::fromUtf8(message)] { emit happened(text); }); }))
+      [this](const char* message)
+      {
+        QMetaObject::invokeMethod(
+          this, [this, text = QString::fromUtf8(message)] { emit happened(text); }, Qt::QueuedConnection);
+      }))
   , devices_(new DeviceHub(this))
   , live_(new LivePipeline(*work_, this))
   , lens_(new LensTask(*work_, this))
@@ -72,6 +76,7 @@ void HandEyeWorkbench::connectTasks()
   connect(devices_, &DeviceHub::streamsChanged, this, &HandEyeWorkbench::stateChanged);
   connect(lens_, &LensTask::changed, this, &HandEyeWorkbench::stateChanged);
   connect(lens_, &LensTask::refused, this, [this](const QString& message) { refuse(WizardStep::Camera, message); });
+  connect(devices_, &DeviceHub::connectionChanged, this, [this] { touch_->restart(); });
   connect(pivot_, &PivotTask::calibrated, this,
     [this](const PivotStepResult& result)
     {
@@ -130,12 +135,31 @@ void HandEyeWorkbench::onFrame(const devices::PairedFrame& frame)
 
 void HandEyeWorkbench::tell(std::function<void()> news)
 {
-  QMetaObject::invokeMethod(this, std::move(news), Qt::QueuedConnection);
+  QMetaObject::invokeMethod(
+    this,
+    [this, session = workSession_, told = std::move(news)]
+    {
+      if (session == session_)
+      {
+        told();
+      }
+    },
+    Qt::QueuedConnection);
+}
+
+void HandEyeWorkbench::post(std::function<void()> work)
+{
+  work_->post(
+    [this, session = session_, todo = std::move(work)]
+    {
+      workSession_ = session;
+      todo();
+    });
 }
 
 void HandEyeWorkbench::beside(WizardStep step, std::function<void()> work)
 {
-  work_->post(
+  post(
     [this, step, todo = std::move(work)]
     {
       try

@@ -172,6 +172,8 @@ public:
   void loadModel(const QString& path);
   vtkPolyData* model() const { return model_; }
   QString modelPath() const { return modelPath_; }
+  /// Of the mesh that was asked for last, loaded or not; empty: none was.
+  QString wantedModelPath() const { return wantedModelPath_; }
   /// The model that comes with the program, and its landmarks; empty if it was not found.
   static QString ownModel();
   static QString ownLandmarks();
@@ -183,6 +185,11 @@ public:
   /// Another mesh was loaded after the phantom was registered: nothing is drawn with it until the person says that it lies in the
   /// same coordinates (keepRegistration()), or registers anew.
   bool isRegisteredForAnotherModel() const;
+  /// The registration, if it is that of the mesh that is loaded.
+  std::optional<Eigen::Isometry3d> registrationOfModel() const
+  {
+    return isRegisteredForAnotherModel() ? std::nullopt : modelToPhantom_;
+  }
   void keepRegistration();
   const std::optional<LandmarkRegistrationResult>& registration() const { return registration_; }
   /// What places the model, or the reason why there is nothing yet.
@@ -255,6 +262,9 @@ private:
   /// Work beside the window; what it throws is a refusal of the step.
   void beside(WizardStep step, std::function<void()> work);
   std::optional<Eigen::Isometry3d> stylusTipTo(const Eigen::Isometry3d& markerToCamera, const devices::PairedFrame& frame) const;
+  /// Work for the thread beside the window, for the session that is open now.
+  void post(std::function<void()> work);
+  /// News from that thread; those of a session that is not the open one any more are dropped.
   void tell(std::function<void()> news);
   void onSample(const devices::DeviceSample& sample);
   void onFrame(const devices::PairedFrame& frame);
@@ -269,6 +279,8 @@ private:
   CaptureTask* capture_;
   CaptureTask* validationCapture_;
   ComparisonTask* comparison_;
+  int session_ = 0;      ///< counts the sessions that were opened
+  int workSession_ = 0;  ///< of the work under way; belongs to the work's thread
   WizardStep step_ = WizardStep::Devices;
   QStringList sessionProblems_;
   QString storedComparison_;
@@ -282,7 +294,7 @@ private:
   double nearestMm_ = 160, furthestMm_ = 420, enoughPx_ = 1.5;
   bool isCalibrationAsked_ = false, isCalibrating_ = false, isCalibrationStale_ = false;
   vtkSmartPointer<vtkPolyData> model_;
-  QString modelPath_, registeredModelPath_;
+  QString modelPath_, wantedModelPath_, registeredModelPath_;
   std::optional<Eigen::Isometry3d> modelToPhantom_;
   std::optional<LandmarkRegistrationResult> registration_;
 };

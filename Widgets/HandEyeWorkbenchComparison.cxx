@@ -28,6 +28,18 @@ QString HandEyeWorkbench::missingForComparison() const
   {
     return tr("The samples are being looked at.");
   }
+  for (const CaptureTask* task : { capture_, validationCapture_ })
+  {
+    if (task->isBroken())
+    {
+      return tr("Stored placements are those of another lens, stylus or ball: press Look again on the page %1.")
+        .arg(task == capture_ ? tr("Capture") : tr("Validation"));
+    }
+    if (task->isStale())
+    {
+      return tr("The samples are being looked at.");
+    }
+  }
   const int samples = int(capture_->frames().size());
   if (samples == 0 && isCalibrationLoaded_)
   {

@@ -68,6 +68,7 @@ void HandEyeWorkbench::setCamera(const io::CameraFile& file, const QString& orig
     // Nothing can be calibrated anew: it came without samples.
     isCalibrationLoaded_ = false;
     calibration_.reset();
+    store("calibration", nlohmann::json());
     emit calibrationChanged();
     refuse(WizardStep::Camera, tr("The calibration that was loaded is of another lens and is not used any more."));
   }

@@ -93,7 +93,7 @@ void HandEyeWorkbench::calibrateNow()
   isCalibrating_ = true;
   HandEyeCalibrationOptions options;
   options.tipCovariance_Stylus = stylus_->tipCovariance;
-  work_->post(
+  post(
     [this, frames, taken = *inputs, options, depths = DepthRange({ nearestMm_, furthestMm_ }), tip = stylus_->tip_Stylus]
     {
       std::optional<CalibrationStepResult> step;
@@ -242,6 +242,7 @@ QString HandEyeWorkbench::ownLandmarks()
 
 void HandEyeWorkbench::loadModel(const QString& path)
 {
+  wantedModelPath_ = path;
   beside(WizardStep::Overlay,
     [this, path]
     {
@@ -249,6 +250,10 @@ void HandEyeWorkbench::loadModel(const QString& path)
       tell(
         [this, mesh, path]
         {
+          if (path != wantedModelPath_)
+          {
+            return;  // another one was asked for meanwhile
+          }
           model_ = mesh;
           modelPath_ = path;
           registeredModelPath_ = registeredModelPath_.isEmpty() ? path : registeredModelPath_;
@@ -291,18 +296,16 @@ void HandEyeWorkbench::registerLandmarks(
   const std::vector<Eigen::Vector3d>& points_Model, const std::vector<Eigen::Vector3d>& points_Phantom)
 {
   beside(WizardStep::Overlay,
-    [this, points_Model, points_Phantom]
+    [this, points_Model, points_Phantom, touchedModel = modelPath_]
     {
       const LandmarkRegistrationResult result = handeye::registerLandmarks(points_Model, points_Phantom);
       tell(
-        [this, result]
+        [this, result, touchedModel]
         {
           registration_ = result;
-          if (result.isUsable())
-          {
-            store("phantom", phantomJson(result));
-          }
-          setModelToPhantom(result.isUsable() ? std::optional(result.modelToPhantom) : std::nullopt, {});
+          // One that was refused does not come back with the session.
+          store("phantom", result.isUsable() ? phantomJson(result) : nlohmann::json());
+          setModelToPhantom(result.isUsable() ? std::optional(result.modelToPhantom) : std::nullopt, touchedModel);
         });
     });
 }

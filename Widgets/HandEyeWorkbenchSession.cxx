@@ -52,6 +52,8 @@ QString HandEyeWorkbench::newSessionFolder()
 
 void HandEyeWorkbench::openSession(const QString& folder)
 {
+  ++session_;
+  isCalibrating_ = isCalibrationStale_ = false;
   camera_.reset();
   stylus_.reset();
   ball_ = {};
@@ -60,6 +62,7 @@ void HandEyeWorkbench::openSession(const QString& folder)
   validation_.reset();
   model_ = nullptr;
   modelPath_.clear();
+  wantedModelPath_.clear();
   registeredModelPath_.clear();
   modelToPhantom_.reset();
   registration_.reset();
@@ -83,7 +86,7 @@ QString HandEyeWorkbench::documentPath(const QString& name) const
 
 void HandEyeWorkbench::afterStoring(std::function<void()> then)
 {
-  work_->post([this, then = std::move(then)] { tell(then); });
+  post([this, then = std::move(then)] { tell(then); });
 }
 
 void HandEyeWorkbench::store(const std::string& name, const json& document)

@@ -104,9 +104,10 @@ QString HandEyeWorkbench::problemOf(WizardStep step) const
 
 Level HandEyeWorkbench::levelOf(WizardStep step) const
 {
-  if (step == WizardStep::Capture && calibration_ && !isCalibrationLoaded_)
+  if (step == WizardStep::Capture && calibration_)
   {
-    return errorLevel(calibration_->calibration.predicted.meanPx);
+    // Of one that was loaded the file does not say how good it is here.
+    return isCalibrationLoaded_ ? Level::Info : errorLevel(calibration_->calibration.predicted.meanPx);
   }
   if (step == WizardStep::Validation && validation_)
   {

@@ -126,7 +126,7 @@ void HostLink::showResults()
   scene_.setStylusTip(workbench_.stylus() ? std::optional<Eigen::Vector3d>(workbench_.stylus()->tip_Stylus) : std::nullopt,
     workbench_.ball().radiusMm);
   scene_.setPhantomMesh(workbench_.model());
-  scene_.setModelToPhantom(workbench_.isRegisteredForAnotherModel() ? std::nullopt : workbench_.modelToPhantom());
+  scene_.setModelToPhantom(workbench_.registrationOfModel());
   std::vector<HandEyeSceneProps::CapturedPoint> points;
   if (calibration)
   {

@@ -25,6 +25,7 @@ constexpr double SameNumber = 1e-9;
 LogicLink::LogicLink(HandEyeWorkbench& workbench, vtkSlicerHandEyeCalibrationLogic& logic)
   : workbench_(workbench)
   , logic_(&logic)
+  , stylus_{ "stylus", &vtkSlicerHandEyeCalibrationLogic::LoadStylus, &LogicLink::isStylusTheSame }
   , calibration_{ "calibration", &vtkSlicerHandEyeCalibrationLogic::LoadCalibration, &LogicLink::isCalibrationTheSame }
   , registration_{ "phantom", &vtkSlicerHandEyeCalibrationLogic::LoadPhantomRegistration, &LogicLink::isRegistrationTheSame }
 {
@@ -50,13 +51,28 @@ LogicLink::~LogicLink()
   }
 }
 
+bool LogicLink::isStylusTheSame() const
+{
+  double tip[3] = {};
+  return logic_->HasStylusDocument() && workbench_.stylus() && logic_->GetStylusTip(tip) &&
+    workbench_.stylus()->tip_Stylus.isApprox(Eigen::Vector3d(tip), SameNumber);
+}
+
 void LogicLink::giveStylus()
 {
-  if (workbench_.stylus())
+  ++stylus_.changes;
+  const std::optional<HandEyeWorkbench::Stylus>& stylus = workbench_.stylus();
+  if (stylus && !stylus->document.is_null())
+  {
+    if (!isStylusTheSame())
+    {
+      give(stylus_);
+    }
+  }
+  else if (stylus)
   {
     const QScopedValueRollback<bool> giving(isGiving_, true);
-    const Eigen::Vector3d& tip_Stylus = workbench_.stylus()->tip_Stylus;
-    logic_->SetStylusTip(tip_Stylus.x(), tip_Stylus.y(), tip_Stylus.z());
+    logic_->SetStylusTip(stylus->tip_Stylus.x(), stylus->tip_Stylus.y(), stylus->tip_Stylus.z());
   }
 }
 
@@ -90,7 +106,11 @@ void LogicLink::giveCalibration()
 {
   const std::optional<CalibrationStepResult>& calibration = workbench_.calibration();
   ++calibration_.changes;
-  if (calibration && calibration->isUsable() && !isCalibrationTheSame())
+  if (!calibration)
+  {
+    logic_->ForgetCalibration();
+  }
+  else if (calibration->isUsable() && !isCalibrationTheSame())
   {
     give(calibration_);
   }
@@ -105,7 +125,11 @@ bool LogicLink::isRegistrationTheSame() const
 void LogicLink::giveRegistration()
 {
   ++registration_.changes;
-  if (workbench_.modelToPhantom() && !isRegistrationTheSame())
+  if (!workbench_.registrationOfModel())
+  {
+    logic_->ForgetPhantomRegistration();
+  }
+  else if (!isRegistrationTheSame())
   {
     give(registration_);
   }
@@ -118,10 +142,10 @@ void LogicLink::takeStylus()
   {
     return;
   }
-  const std::string file = folder_.filePath(QStringLiteral("stylus.json")).toStdString();
-  if (logic_->GetStylusResult() && logic_->SaveStylus(file))
+  const QString file = folder_.filePath(QStringLiteral("stylus.json"));
+  if (logic_->HasStylusDocument() && logic_->SaveStylus(file.toStdString()))
   {
-    workbench_.loadStylus(QString::fromStdString(file));
+    workbench_.loadStylus(file);
   }
   else
   {

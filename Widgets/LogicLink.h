@@ -22,8 +22,9 @@ class HandEyeWorkbench;
 /// node's stylus tip, a script) becomes the wizard's.
 ///
 /// The session is the owner. Where it has samples of its own, its calibration stays: one that was given to the logic is refused in words,
-/// and the session's is given back. Another session takes the results of the one before away, from the logic as well. A calibration that
-/// is not usable leaves the one before it in the logic, as the logic's own steps do.
+/// and the session's is given back. Another session takes the results of the one before away, from the logic as well, and so does what
+/// the wizard withdraws: a calibration of another lens, a registration of another mesh. A calibration that was tried and is not usable
+/// leaves the one before it in the logic, as the logic's own steps do.
 ///
 /// Results go over as files: the session's documents in the one direction, a temporary folder in the other. Belongs to the thread of the
 /// user interface, as do the events of the logic.
@@ -53,13 +54,14 @@ private:
   void takeCalibration();
   void takeRegistration();
 
+  bool isStylusTheSame() const;
   bool isCalibrationTheSame() const;
   bool isRegistrationTheSame() const;
 
   HandEyeWorkbench& workbench_;
   vtkSmartPointer<vtkSlicerHandEyeCalibrationLogic> logic_;
   std::vector<unsigned long> observers_;
-  Result calibration_, registration_;
+  Result stylus_, calibration_, registration_;
   QTemporaryDir folder_;   ///< for what comes from the logic
   bool isGiving_ = false;  ///< the logic's event is an answer to this link
 };

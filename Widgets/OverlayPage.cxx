@@ -81,6 +81,8 @@ OverlayPage::OverlayPage(HandEyeWorkbench& workbench, QWidget* parent)
   connect(&workbench_, &HandEyeWorkbench::registrationChanged, this, &OverlayPage::showRegistration);
   connect(ui_->keepButton, &QPushButton::clicked, &workbench_, &HandEyeWorkbench::keepRegistration);
   ui_->keepButton->hide();
+  connect(&workbench_, &HandEyeWorkbench::modelChanged, this, &OverlayPage::takeModel);
+  connect(&workbench_, &HandEyeWorkbench::resultsForgotten, this, &OverlayPage::forgetTouched);
   setState({});
   tipTimer_.setInterval(TipIntervalMs);
   connect(&tipTimer_, &QTimer::timeout, this, &OverlayPage::followTip);
@@ -91,15 +93,49 @@ OverlayPage::~OverlayPage() = default;
 
 void OverlayPage::enter()
 {
-  if (!workbench_.model() && !HandEyeWorkbench::ownModel().isEmpty())
+  if (workbench_.wantedModelPath().isEmpty() && !HandEyeWorkbench::ownModel().isEmpty())
   {
     workbench_.loadModel(HandEyeWorkbench::ownModel());
   }
-  if (ui_->landmarks->landmarks().isEmpty() && !HandEyeWorkbench::ownLandmarks().isEmpty())
+  const bool isOwn = workbench_.wantedModelPath() == HandEyeWorkbench::ownModel();
+  if (isOwn && ui_->landmarks->landmarks().isEmpty() && !HandEyeWorkbench::ownLandmarks().isEmpty())
   {
     ui_->landmarks->loadModelLandmarks(HandEyeWorkbench::ownLandmarks());
   }
   playRoom();
+}
+
+/// What was touched belongs to the session of its time, and so do the landmarks of the program's own mesh.
+void OverlayPage::forgetTouched()
+{
+  if (touchedModel_ == HandEyeWorkbench::ownModel())
+  {
+    ui_->landmarks->setLandmarks({});
+  }
+  else if (!ui_->landmarks->pairs().landmarks.isEmpty())
+  {
+    ui_->landmarks->clearTouched();
+  }
+  touchedModel_.clear();
+}
+
+/// Landmarks that were touched for another mesh do not place this one.
+void OverlayPage::takeModel()
+{
+  const QString model = workbench_.modelPath();
+  if (model.isEmpty() || model == touchedModel_)
+  {
+    return;
+  }
+  if (!touchedModel_.isEmpty())
+  {
+    forgetTouched();
+  }
+  touchedModel_ = model;
+  if (model == HandEyeWorkbench::ownModel() && ui_->landmarks->landmarks().isEmpty())
+  {
+    ui_->landmarks->loadModelLandmarks(HandEyeWorkbench::ownLandmarks());
+  }
 }
 
 /// The simulated room's stylus goes to the landmark that is asked for.
@@ -197,7 +233,7 @@ void OverlayPage::setRecording(const OverlayRecordingState& state)
   const QMap<Phase, QString> words = { { Phase::Idle, QString() }, { Phase::Recording, tr("Recording: %1").arg(counted) },
     { Phase::Finishing, tr("Storing: %1").arg(counted) }, { Phase::Stored, tr("Stored: videos/%1 (%2)").arg(name, counted) },
     { Phase::Failed, tr("Not recorded:") } };
-  ui_->recordButton->setText(isRecording_ ? tr("Stop &recording") : tr("&Record a video"));
+  ui_->recordButton->setText(isRecording_ ? tr("Stop recording") : tr("Record a video"));
   ui_->recordButton->setEnabled(state.phase != Phase::Finishing);
   ui_->formatBox->setEnabled(!isRecording_ && state.phase != Phase::Finishing);
   ui_->eyesBox->setEnabled(!isRecording_);

@@ -48,6 +48,8 @@ private:
   void playRoom();
   void followTip();
   void takeTip();
+  void forgetTouched();
+  void takeModel();
   void showRegistration();
   void connectLook();
   void connectEyesAndVideo();
@@ -55,6 +57,7 @@ private:
 
   std::unique_ptr<Ui::OverlayPage> ui_;
   TouchTask::Touch touch_;
+  QString touchedModel_;  ///< the mesh that the landmarks belong to
   QTimer tipTimer_;
   OverlayLook look_;
   bool isRecording_ = false;

@@ -187,10 +187,18 @@ void OverlayPresenter::show(const LiveView& shown)
 
 void OverlayPresenter::draw(const LiveView& shown, OverlayTransformSet& transforms)
 {
-  if (!isWanted() || !workbench_.model())
+  if (!isWanted())
   {
+    silence_.stop();
     forget();
     hide({});
+    return;
+  }
+  silence_.start();
+  if (!workbench_.model())
+  {
+    forget();
+    hide(tr("There is no mesh yet."));
     return;
   }
   QString problem;
@@ -201,7 +209,6 @@ void OverlayPresenter::draw(const LiveView& shown, OverlayTransformSet& transfor
     hide(problem);
     return;
   }
-  silence_.start();
   feed(*placing);
   if (!live_)
   {
@@ -224,7 +231,8 @@ void OverlayPresenter::draw(const LiveView& shown, OverlayTransformSet& transfor
   }
   if (view_.stereo())
   {
-    showRight(shown, transforms);
+    const QString right = showRight(shown, transforms);
+    state.problem = state.problem.isEmpty() && !right.isEmpty() ? tr("Right eye: %1").arg(right) : state.problem;
   }
   emit stateChanged(state);
 }
@@ -258,17 +266,21 @@ QString OverlayPresenter::stereoProblem(const LiveView& shown) const
   return shown.right ? QString() : tr("One eye: no picture comes from the right eye's video '%1'.").arg(setup.rightImage);
 }
 
-void OverlayPresenter::showRight(const LiveView& shown, OverlayTransformSet& transforms)
+/// @return why the model is not drawn for the right eye, or fades
+QString OverlayPresenter::showRight(const LiveView& shown, OverlayTransformSet& transforms)
 {
   vtkHandEyeOverlayPipeline* pipeline = view_.rightPipeline();
   pipeline->SetVideoFrame(toEightBit(shown.right->image.frame()->image));
   pipeline->SetModelVisible(false);
   std::optional<Eigen::Isometry3d>& modelToRight = transforms["ModelToRightCamera"];
-  if (rightLive_)
-  {
-    modelToRight = place(*rightLive_, shown.right->poseTimeSec, pipeline).modelToCamera;
-  }
   showStylus(pipeline, workbench_.stylusTipToRightCamera(*shown.right), transforms["StylusTipToRightCamera"]);
+  if (!rightLive_)
+  {
+    return tr("its place is not known.");
+  }
+  const LiveOverlayPose pose = place(*rightLive_, shown.right->poseTimeSec, pipeline);
+  modelToRight = pose.modelToCamera;
+  return QString::fromStdString(pose.message.empty() ? pipeline->GetProblem() : pose.message);
 }
 
 void OverlayPresenter::showStylus(vtkHandEyeOverlayPipeline* pipeline, const std::optional<Eigen::Isometry3d>& stylusTipToCamera,

@@ -103,7 +103,7 @@ private:
   void draw(const LiveView& shown, OverlayTransformSet& transforms);
   void feed(const OverlayTransforms& transforms);
   LiveOverlayPose place(LiveOverlay& live, double timeSec, vtkHandEyeOverlayPipeline* pipeline);
-  void showRight(const LiveView& shown, OverlayTransformSet& transforms);
+  QString showRight(const LiveView& shown, OverlayTransformSet& transforms);
   QString stereoProblem(const LiveView& shown) const;
   void showStylus(vtkHandEyeOverlayPipeline* pipeline, const std::optional<Eigen::Isometry3d>& stylusTipToCamera,
     std::optional<Eigen::Isometry3d>& kept);

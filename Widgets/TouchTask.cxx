@@ -16,11 +16,6 @@ constexpr double LongestWaitSec = 0.3;  // stream time that a stylus' pose waits
 constexpr double ClockJumpSec = 10;     // a time that goes back by more is a clock that was set
 constexpr std::chrono::milliseconds Silence(700);
 
-QString tr(const char* text)
-{
-  return QCoreApplication::translate("handeye::TouchTask", text);
-}
-
 }  // namespace
 
 void TouchTask::follow(
@@ -34,6 +29,12 @@ void TouchTask::follow(
     tip_Stylus_ = tip_Stylus;
     clear();
   }
+}
+
+void TouchTask::restart()
+{
+  const std::lock_guard lock(mutex_);
+  clear();
 }
 
 void TouchTask::clear()
@@ -107,11 +108,12 @@ TouchTask::Touch TouchTask::newest() const
   Touch touch;
   if (!tip_Stylus_)
   {
-    touch.problem = tr("The stylus is not calibrated yet.");
+    touch.problem = QCoreApplication::translate("handeye::TouchTask", "The stylus is not calibrated yet.");
   }
   else if (std::chrono::steady_clock::now() - taken_ > Silence)
   {
-    touch.problem = QString::fromStdString(stylusToTracker_) + tr(": no pose is received");
+    touch.problem =
+      QCoreApplication::translate("handeye::TouchTask", "%1: no pose is received").arg(QString::fromStdString(stylusToTracker_));
   }
   else
   {

@@ -40,6 +40,9 @@ public:
   void follow(
     const std::optional<Eigen::Vector3d>& tip_Stylus, const std::string& stylusToTracker, const std::string& phantomToTracker);
 
+  /// Other devices: their times may be any.
+  void restart();
+
   void onSample(const devices::DeviceSample& sample);
 
   Touch newest() const;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VideoPresenter.h"
 
+#include "EightBitImage.h"
 #include "SphereCone.h"
 #include "vtkHandEyeOverlayPipeline.h"
 
@@ -98,16 +99,15 @@ void VideoPresenter::showFrame()
   QTimer::singleShot(0, this, [this] { costMs_ = sinceShown_.elapsed(); });
   try
   {
-    view_.setFrame(shown->image());
+    view_.setFrame(toEightBit(shown->image()));
+    view_.setBanner(shown->problem, Level::Error);
+    showBall(*shown);
+    overlay_->show(*shown);
   }
   catch (const std::invalid_argument& error)
   {
     view_.setBanner(QString::fromUtf8(error.what()), Level::Error);
-    return;
   }
-  view_.setBanner(shown->problem, Level::Error);
-  showBall(*shown);
-  overlay_->show(*shown);
 }
 
 void VideoPresenter::showBall(const LiveView& shown)

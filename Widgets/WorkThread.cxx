@@ -42,6 +42,12 @@ void WorkThread::postNewest(Work work)
   changed_.notify_all();
 }
 
+void WorkThread::cancel()
+{
+  const std::lock_guard lock(mutex_);
+  isCancelled_ = isWorking_ || !work_.empty();
+}
+
 void WorkThread::run()
 {
   for (;;)
@@ -49,6 +55,7 @@ void WorkThread::run()
     Work work;
     {
       std::unique_lock lock(mutex_);
+      isWorking_ = false;
       if (work_.empty())
       {
         isCancelled_ = false;
@@ -67,6 +74,7 @@ void WorkThread::run()
       {
         work = std::exchange(newest_, nullptr);
       }
+      isWorking_ = true;
     }
     perform(work);
   }

@@ -35,8 +35,9 @@ public:
   /// Replaces what was posted by this function before and has not begun: a video that is too fast loses frames, and does not wait.
   void postNewest(Work work);
 
-  /// Asks the work under way, and what waits behind it, to stop; forgotten once all of that is done.
-  void cancel() { isCancelled_ = true; }
+  /// Asks the work under way, and what waits behind it, to stop; forgotten once all of that is done. Without effect where there is
+  /// none.
+  void cancel();
   bool isCancelled() const { return isCancelled_ || isEnding_; }
   /// The thread is being ended: nobody waits for results any more.
   bool isEnding() const { return isEnding_; }
@@ -50,6 +51,7 @@ private:
   std::condition_variable changed_;
   std::deque<Work> work_;
   Work newest_;
+  bool isWorking_ = false;
   std::atomic<bool> isCancelled_{ false }, isEnding_{ false };
   std::thread thread_;
 };

@@ -64,10 +64,20 @@ public:
     QVERIFY(!description.isEmpty());
     (*this->Scene)[name] = vtkSmartPointer<vtkMatrix4x4>::New();
     (*this->Scene)[name]->DeepCopy(toParent);
+    this->Published.insert(name);
+  }
+
+  void withdrawTransform(const QString& name) override
+  {
+    if (this->Published.remove(name))
+    {
+      this->Scene->erase(name);
+    }
   }
 
 private:
   std::shared_ptr<Nodes> Scene;
+  QSet<QString> Published;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LandmarkFiles.h"
+#include "LandmarkPanel.h"
 #include "OverlayRecordingTask.h"
 #include "Recording.h"
 #include "SequenceMetafile.h"
@@ -340,7 +341,9 @@ void WizardOverlayTest::twoEyes_SeeEachTheirOwn()
   QVERIFY(driver.visibleText("eyesLabel").isEmpty());
   // Each half has its own video, and the model where its own eye sees it.
   cv::Mat shown;
-  QTRY_VERIFY_WITH_TIMEOUT(view.readShown(shown) && shown.cols == 1280 && shown.rows == 480, PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(
+    view.readShown(shown) && shown.cols == 1280 && shown.rows == 480 && shown.at<cv::Vec3b>(3, 1276)[1] == StereoServer::RightGrey,
+    PatienceMs);  // the layout is there before the right eye's picture
   QCOMPARE(int(shown.at<cv::Vec3b>(3, 3)[1]), StereoServer::LeftGrey);
   QCOMPARE(int(shown.at<cv::Vec3b>(3, 1276)[1]), StereoServer::RightGrey);
   const auto middleOf = [&](const cv::Rect& half, int grey)
@@ -406,6 +409,7 @@ void WizardOverlayTest::anotherMesh_DoesNotTakeTheRegistrationOfTheOneBefore()
   QTRY_VERIFY_WITH_TIMEOUT(driver.visibleText("overlayLabel").contains(QFileInfo(first).fileName()), 1000);
   QVERIFY(workbench.problemOf(WizardStep::Overlay).contains(QStringLiteral("this mesh")));
   QVERIFY(keep->isVisible());
+  QVERIFY2(panel_->findChild<handeye::LandmarkPanel*>()->landmarks().isEmpty(), "those of the mesh before do not place this one");
   panel_->grab().save(QStringLiteral(HANDEYE_TEST_OUTPUT_DIR "/WizardOverlay.anotherMesh.png"));
   const auto* area = panel_->findChild<QScrollArea*>(QStringLiteral("scrollArea"));
   QVERIFY2(panel_->page(WizardStep::Overlay)->width() <= area->viewport()->width(), "cut off to the side");

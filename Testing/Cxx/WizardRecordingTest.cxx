@@ -114,6 +114,7 @@ private slots:
   void session_KilledKeepsWhatWasAnnounced();
   void calibrationOfAnotherTime_IsValidated();
   void evaluation_CancelledIsSaidAndMadeUpFor();
+  void sessionOpenedDuringWork_KeepsItsOwnSamples();
   void anotherSession_HasNothingOfTheOneBefore();
 };
 
@@ -141,6 +142,35 @@ void WizardRecordingTest::evaluation_CancelledIsSaidAndMadeUpFor()
     !workbench.capture().isBusy() && workbench.calibration() && workbench.calibration()->isUsable(), PatienceMs);
   QCOMPARE(workbench.calibration()->ballRadiusMm, 15.2);
   QVERIFY(!driver.onPage("againButton")->isVisible());
+  QVERIFY2(!driver.message().contains(QStringLiteral("cancelled")), qPrintable(driver.message()));
+}
+
+/// Samples that are being looked at while another session is opened stay those of their session.
+void WizardRecordingTest::sessionOpenedDuringWork_KeepsItsOwnSamples()
+{
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  testing_widgets::show(panel, QSize(1280, 800));
+  loadInputs(panel);
+  importCapture(panel);
+  HandEyeWorkbench& workbench = panel.workbench();
+  workbench.setBallRadius(15.2);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.capture().isBusy(), PatienceMs);
+  QVERIFY(workbench.capture().isStale());
+  const QTemporaryDir folder;
+  workbench.loadModel(HandEyeWorkbench::ownModel());
+  workbench.openSession(folder.filePath(QStringLiteral("another")));
+  QVERIFY(!workbench.capture().isBusy() && !workbench.capture().isStale());
+  bool isThrough = false;
+  workbench.afterStoring([&isThrough] { isThrough = true; });
+  QTRY_VERIFY_WITH_TIMEOUT(isThrough, PatienceMs);
+  QTest::qWait(300);
+  QVERIFY(workbench.capture().samples().isEmpty());
+  QVERIFY(!workbench.calibration() && !workbench.model());
+  QVERIFY(!workbench.capture().isBusy() && !workbench.capture().isStale());
+  // And it works.
+  loadInputs(panel);
+  importCapture(panel);
+  QVERIFY(workbench.calibration()->isUsable());
 }
 
 void WizardRecordingTest::anotherSession_HasNothingOfTheOneBefore()

@@ -3,6 +3,7 @@
 #include "FaultyServer.h"
 #include "SampleTable.h"
 #include "SequenceMetafileWriter.h"
+#include "StreamList.h"
 #include "VideoView.h"
 #include "WidgetTestSupport.h"
 #include "WizardDriver.h"
@@ -10,10 +11,12 @@
 #include "WizardStepBar.h"
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QLineEdit>
 #include <QRadioButton>
 #include <QTemporaryDir>
 #include <QToolButton>
+#include <QWheelEvent>
 
 #include <fstream>
 #include <memory>
@@ -63,6 +66,8 @@ private slots:
   void nothingConnected_SaysWhatToDo();
   void address_ThatIsNone();
   void server_ThatIsNotThere();
+  void oneStream_ForTwoTools();
+  void wheel_OverAChoice_ChangesNothing();
   void recording_ThatIsNotThere();
   void wrongFile_AsCamera();
   void wrongFile_AsStylus();
@@ -139,6 +144,48 @@ void WizardRefusalsTest::server_ThatIsNotThere()
   QTRY_VERIFY_WITH_TIMEOUT(driver_->reason().contains(QStringLiteral("127.0.0.1:1")), PatienceMs);
   QTRY_VERIFY_WITH_TIMEOUT(driver_->reason().contains(QStringLiteral("refused"), Qt::CaseInsensitive), PatienceMs);
   QVERIFY(!driver_->canGoNext());
+}
+
+void WizardRefusalsTest::oneStream_ForTwoTools()
+{
+  FaultyServer server;
+  connectTo(server);
+  handeye::DeviceSetup setup = workbench().devices().setup();
+  const QString marker = std::exchange(setup.markerToTracker, setup.stylusToTracker);
+  workbench().setStreamNames(setup);
+  QTRY_VERIFY_WITH_TIMEOUT(!driver_->canGoNext(), PatienceMs);
+  QVERIFY2(
+    driver_->reason().contains(QStringLiteral("chosen for the stylus and for the camera's marker")), qPrintable(driver_->reason()));
+  setup.markerToTracker.clear();
+  workbench().setStreamNames(setup);
+  QVERIFY2(driver_->reason().contains(QStringLiteral("Choose the stream of the camera's marker")), qPrintable(driver_->reason()));
+  setup.markerToTracker = marker;
+  workbench().setStreamNames(setup);
+  QTRY_VERIFY_WITH_TIMEOUT(driver_->canGoNext(), PatienceMs);
+}
+
+/// Who scrolls down the page does not choose another stream in passing.
+void WizardRefusalsTest::wheel_OverAChoice_ChangesNothing()
+{
+  FaultyServer server;
+  connectTo(server);
+  const auto turn = [](QWidget* widget)
+  {
+    const QPointF middle = widget->rect().center();
+    QWheelEvent event(middle, widget->mapToGlobal(middle.toPoint()), QPoint(), QPoint(0, -120), Qt::NoButton, Qt::NoModifier,
+      Qt::NoScrollPhase, false);
+    QApplication::sendEvent(widget, &event);
+  };
+  auto* const box = driver_->onPage<handeye::StreamList>("streamList")->choiceBox(handeye::StreamList::Role::CameraMarker);
+  const int chosen = box->currentIndex();
+  QVERIFY(chosen >= 0 && chosen + 1 < box->count());
+  panel_->setFocus();
+  turn(box);
+  QCOMPARE(box->currentIndex(), chosen);
+  // With the focus it is meant.
+  box->setFocus();
+  turn(box);
+  QCOMPARE(box->currentIndex(), chosen + 1);
 }
 
 void WizardRefusalsTest::recording_ThatIsNotThere()
