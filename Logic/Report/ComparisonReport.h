@@ -37,6 +37,9 @@ namespace report
 {
 
 /// The tables of it, for whoever pools comparisons.
+/// Place of each method: "1", "2 ~" where it is not told apart from the first, "apart" where it is not ranked with the others, empty
+/// where it gave nothing.
+[[nodiscard]] std::vector<std::string> ranksOf(const ComparisonResult& result);
 [[nodiscard]] Table methodsTable(const ComparisonResult& result, const std::string& caption);
 [[nodiscard]] Table subsetsTable(const std::vector<MethodResult>& methods);
 [[nodiscard]] Table repeatabilityTable(const std::vector<MethodResult>& methods);

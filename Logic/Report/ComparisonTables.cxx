@@ -9,10 +9,6 @@
 namespace handeye::report
 {
 
-namespace
-{
-
-/// Place of each method: "1", "2 ~" where it is not told apart from the first, "apart" where it is not ranked with the others.
 std::vector<std::string> ranksOf(const ComparisonResult& result)
 {
   std::vector<std::string> ranks(result.methods.size());
@@ -30,8 +26,6 @@ std::vector<std::string> ranksOf(const ComparisonResult& result)
   }
   return ranks;
 }
-
-}  // namespace
 
 Table methodsTable(const ComparisonResult& result, const std::string& caption)
 {

@@ -154,6 +154,17 @@ TEST_F(CompareCommands, SeveralCaptures_GiveTheRepeatability)
   EXPECT_TRUE(ml.at("subsets").empty());
 }
 
+TEST_F(CompareCommands, WhatIsValidatedOnOrThereTwice_IsRefused)
+{
+  for (const std::vector<std::string>& twice :
+    { std::vector<std::string>{ "--ball", file("validation") }, { "--ball", file("first"), "--ball", file("first") + "/" } })
+  {
+    const CommandResult refused = run(compare(twice));
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_NE(refused.err.find("no method may be fitted to what it is judged by"), std::string::npos) << refused.err;
+  }
+}
+
 TEST_F(CompareCommands, NothingToCalibrateFrom_IsWrongUse)
 {
   const CommandResult result = run(compare({}));
