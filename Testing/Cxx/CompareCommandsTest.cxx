@@ -154,6 +154,15 @@ TEST_F(CompareCommands, SeveralCaptures_GiveTheRepeatability)
   EXPECT_TRUE(ml.at("subsets").empty());
 }
 
+TEST_F(CompareCommands, Text_SaysRanks)
+{
+  const CommandResult result = run(compare({ "--ball", file("first"), "--subsets", "0", "--without-published" }));
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_NE(result.out.find("method              rank    mean"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("    1    0."), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("~: not told apart from the first"), std::string::npos) << result.out;
+}
+
 TEST_F(CompareCommands, WhatIsValidatedOnOrThereTwice_IsRefused)
 {
   for (const std::vector<std::string>& twice :
