@@ -104,7 +104,7 @@ bool EpipolarCellProgram::hasSolution()
   return dual_.minimize(Eigen::Matrix<double, Rows, 1>::UnitX(), basis, -Tolerance) != SmallSimplex<Rows>::End::Below;
 }
 
-/// The largest y_k (or -y_k) with all conditions; every step of the dual is a bound.
+/// A bound of y_k (or -y_k) with all conditions: 1, as before, where the dual says nothing.
 double EpipolarCellProgram::largest(int unknown, int side)
 {
   SmallSimplex<Unknowns>::Basis basis{};

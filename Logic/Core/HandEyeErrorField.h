@@ -26,7 +26,7 @@ constexpr double ErrorQuantile95 = 2.4477;
 ///     covariance = constant + linear / Z + quadratic / Z^2
 ///
 /// with three symmetric 2x2 matrices for each pixel. They are kept at the nodes of a grid from corner to corner of the image and
-/// interpolated between them (bilinear), which is right to 3 % in the corners of a very wide lens.
+/// interpolated between them (bilinear), which is right to 4 % of the error (px) in the corners of a very wide lens.
 ///
 /// Immutable, safe to share between threads.
 class HandEyeErrorField
@@ -47,8 +47,8 @@ public:
   const Nodes& linear() const { return linear_; }
   const Nodes& quadratic() const { return quadratic_; }
 
-  /// The interpolated covariance (px^2) of what is seen at this pixel at this depth (mm, Z in the `Camera` frame); pixels outside
-  /// of the image count as the nearest one inside.
+  /// The interpolated covariance (px^2) of what is seen at this pixel at this depth (mm, Z in the `Camera` frame, more than 0:
+  /// nothing else is seen, and it is not checked); pixels outside of the image count as the nearest one inside.
   Eigen::Matrix2d covariancePx(const Eigen::Vector2d& point_Image, double depthMm) const;
 
 private:

@@ -5,8 +5,10 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace handeye
@@ -16,8 +18,8 @@ namespace handeye
 /// hand. A hundred times faster than a general solver's setting up, which is what the branch and bound would spend its time on; what
 /// this does not decide is for CLP. Internal.
 ///
-/// Every step's objective belongs to an x that is feasible, and so bounds the dual's objective: it may be used however the
-/// minimization ends.
+/// The objective of a feasible x bounds the dual's objective. objective() is that of the last basis whose inverse was computed anew and
+/// whose x was found to be feasible, and so may be used however the minimization ends; it is infinite where there was none.
 template<int Rows> class SmallSimplex
 {
 public:
@@ -28,7 +30,7 @@ public:
   {
     Optimal,
     Below,      ///< the objective fell below what was asked for
-    NotDecided  ///< too many steps, or not to the accuracy that is needed; objective() is a bound all the same where it is finite
+    NotDecided  ///< too many steps, or not to the accuracy that is needed
   };
 
   void clear() { count_ = 0; }
@@ -59,36 +61,35 @@ public:
       {
         return End::NotDecided;
       }
-      objective_ = basisCosts_.dot(values_);
-      if (objective_ < stopBelow)
+      if (basisCosts_.dot(values_) < stopBelow)
       {
-        return refresh(right) && basisCosts_.dot(values_) < stopBelow ? End::Below : End::NotDecided;
+        return refresh(right) && objective_ < stopBelow ? End::Below : End::NotDecided;
       }
       multipliers_ = inverse_.transpose() * basisCosts_;
       reduced_.head(count_).noalias() = costs() - columns().transpose() * multipliers_;
       Eigen::Index entering = 0;
       if (reduced_.head(count_).minCoeff(&entering) > -Accuracy)
       {
-        return End::Optimal;
+        return refresh(right) ? End::Optimal : End::NotDecided;
       }
       if (!pivot(int(entering)))
       {
-        return End::NotDecided;
+        break;
       }
     }
+    (void)refresh(right);
     return End::NotDecided;
   }
 
   double objective() const { return objective_; }
   /// The dual's solution; of the last step before the end.
   const Column& multipliers() const { return multipliers_; }
-  /// c - A^T multipliers of the column.
-  double reducedCost(int column) const { return reduced_(column); }
 
 private:
   static constexpr int RefreshEvery = 24;
   static constexpr double Accuracy = 1e-10, LeastPivot = 1e-9;
 
+  /// The basis without the rounding of the steps so far. @return whether its x is feasible; only then objective() is its own
   bool refresh(const Column& right)
   {
     reduced_.resize(costs_.size());
@@ -100,7 +101,10 @@ private:
     }
     inverse_ = matrix.inverse();
     values_ = inverse_ * right;
-    return inverse_.allFinite() && values_.minCoeff() > -Accuracy && (matrix * values_ - right).cwiseAbs().maxCoeff() < Accuracy;
+    const bool isFeasible =
+      inverse_.allFinite() && values_.minCoeff() > -Accuracy && (matrix * values_ - right).cwiseAbs().maxCoeff() < Accuracy;
+    objective_ = isFeasible ? basisCosts_.dot(values_) : objective_;
+    return isFeasible;
   }
 
   bool pivot(int entering)
@@ -140,7 +144,7 @@ private:
   Basis basis_{};
   Eigen::Matrix<double, Rows, Rows> inverse_;
   Column values_, basisCosts_, multipliers_ = Column::Zero();
-  double objective_ = 0;
+  double objective_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace handeye

@@ -18,6 +18,8 @@ namespace
 
 constexpr std::size_t MostPictures = 8;
 constexpr std::size_t MostPredictions = 6;
+/// Of report::seriesColor(), for pictures: all different, and none of them the green of the segmented ball.
+constexpr std::size_t PictureColors[MostPredictions] = { 0, 1, 3, 5, 6, 4 };
 
 /// The methods that are drawn on pictures: the best one, the best with a board, and those that the paper is about; more hide each
 /// other.
@@ -72,24 +74,15 @@ std::vector<std::size_t> samplesToShow(const ComparisonResult& result, const Com
   return report::spreadOut(samples, MostPictures);
 }
 
-report::Figure pictureOf(
-  const ComparisonResult& result, const ComparisonReportInput& input, const std::vector<int>& methods, std::size_t sample)
+report::Figure pictureOf(const ComparisonResult& result, const ComparisonReportInput& input, std::size_t sample)
 {
   const int frame = input.validation[sample].frame;
-  std::vector<report::PredictedCenter> predicted;
+  const std::vector<report::PredictedCenter> predicted = report::predictedCenters(result, sample);
   std::string errors;
-  for (const int index : methods)
+  for (const report::PredictedCenter& center : predicted)
   {
-    const MethodResult& method = result.methods[std::size_t(index)];
-    const auto capture = std::find_if(
-      method.captures.begin(), method.captures.end(), [](const ComparedCapture& one) { return one.answer.isUsable(); });
-    if (capture != method.captures.end() && capture->validation.samples[sample].status == CameraModel::Status::Ok)
-    {
-      const HandEyeValidationSample& validated = capture->validation.samples[sample];
-      predicted.push_back({ validated.projected_Image,
-        report::seriesOf(result.methods, std::size_t(index), report::PlotSeries::Style::Dots).color, method.name });
-      errors += (errors.empty() ? "" : ", ") + method.name + " " + fixedDigits(validated.errorPx, 2) + " px";
-    }
+    const double errorPx = (center.place_Image - input.validation[sample].ball_Image).norm();
+    errors += (errors.empty() ? "" : ", ") + center.label + " " + fixedDigits(errorPx, 2) + " px";
   }
   BallDetection ball;
   for (const CapturedFrame& captured : input.frames)
@@ -114,16 +107,16 @@ void addPictures(report::ReportDocument& document, const ComparisonResult& resul
   {
     return;
   }
-  const std::vector<int> methods = methodsToShow(result);
   report::Gallery gallery;
   for (const std::size_t sample : samples)
   {
-    gallery.figures.push_back(pictureOf(result, input, methods, sample));
+    gallery.figures.push_back(pictureOf(result, input, sample));
   }
   document.blocks.push_back(report::Heading{ "Predicted and segmented centres" });
   document.blocks.push_back(report::Paragraph{
-    "Green: the segmented ball's outline and centre. Each method's colour: where its calibration (of the first capture) puts the "
-    "tracked ball. Right: the framed part, enlarged; arrows are the errors. The worst frame of the best method first." });
+    "Green: the segmented ball's outline and centre. The colours that each picture's legend names, which are not those of the "
+    "plots: where a method's calibration (of the first capture) puts the tracked ball. Right: the framed part, enlarged; arrows "
+    "are the errors. The worst frame of the best method first." });
   document.blocks.push_back(std::move(gallery));
 }
 
@@ -232,6 +225,28 @@ report::ReportDocument comparisonDocument(const ComparisonResult& result, const 
     { "repeatability.csv", "one line a method: spread of the calibrations (degrees, mm, px)", repeatabilityCsv(result) } };
   return document;
 }
+
+namespace report
+{
+
+std::vector<PredictedCenter> predictedCenters(const ComparisonResult& result, std::size_t sample)
+{
+  std::vector<PredictedCenter> predicted;
+  const std::vector<int> shown = methodsToShow(result);
+  for (std::size_t place = 0; place < shown.size(); ++place)
+  {
+    const MethodResult& method = result.methods[std::size_t(shown[place])];
+    const auto capture = std::find_if(
+      method.captures.begin(), method.captures.end(), [](const ComparedCapture& one) { return one.answer.isUsable(); });
+    if (capture != method.captures.end() && capture->validation.samples[sample].status == CameraModel::Status::Ok)
+    {
+      predicted.push_back({ capture->validation.samples[sample].projected_Image, seriesColor(PictureColors[place]), method.name });
+    }
+  }
+  return predicted;
+}
+
+}  // namespace report
 
 void writeComparisonReport(const std::filesystem::path& folder, const ComparisonResult& result, const ComparisonReportInput& input)
 {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Capture.h"
+#include "MarkedPicture.h"
 #include "MethodComparison.h"
 #include "Recording.h"
 #include "ReportDocument.h"
@@ -36,9 +37,18 @@ namespace report
 {
 
 /// The tables of it, for whoever pools comparisons.
+/// Place of each method: "1", "2 ~" where it is not told apart from the first, "apart" where it is not ranked with the others, empty
+/// where it gave nothing.
+[[nodiscard]] std::vector<std::string> ranksOf(const ComparisonResult& result);
 [[nodiscard]] Table methodsTable(const ComparisonResult& result, const std::string& caption);
 [[nodiscard]] Table subsetsTable(const std::vector<MethodResult>& methods);
 [[nodiscard]] Table repeatabilityTable(const std::vector<MethodResult>& methods);
+
+/// Where the methods that its pictures show put the ball of a validation sample: the best one, the best with a board, those that
+/// the paper is about. Each has a colour of its own, the same in all pictures: in a plot the mark and the dashes help to tell
+/// methods apart, in a picture there is only the colour.
+/// @param result with a ranking
+[[nodiscard]] std::vector<PredictedCenter> predictedCenters(const ComparisonResult& result, std::size_t sample);
 
 }  // namespace report
 

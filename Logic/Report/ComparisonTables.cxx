@@ -9,10 +9,6 @@
 namespace handeye::report
 {
 
-namespace
-{
-
-/// Place of each method: "1", "2 ~" where it is not told apart from the first, "apart" where it is not ranked with the others.
 std::vector<std::string> ranksOf(const ComparisonResult& result)
 {
   std::vector<std::string> ranks(result.methods.size());
@@ -31,12 +27,10 @@ std::vector<std::string> ranksOf(const ComparisonResult& result)
   return ranks;
 }
 
-}  // namespace
-
 Table methodsTable(const ComparisonResult& result, const std::string& caption)
 {
   const bool hasGaps = std::any_of(result.methods.begin(), result.methods.end(),
-    [](const MethodResult& method) { return method.isUsable() && method.commonErrorPx.count < method.errorPx.count; });
+    [](const MethodResult& method) { return method.commonErrorPx.count > 0 && method.commonErrorPx.count < method.errorPx.count; });
   Table table;
   table.caption = caption + ". Rank: ~ is not told apart from the first by these data" +
     (result.incomplete.empty() ? "" : "; apart: failed where others did not, its errors are of easier cases") +
@@ -64,7 +58,7 @@ Table methodsTable(const ComparisonResult& result, const std::string& caption)
       method.title + " (" + method.reference + ")" + (ok && allUsable ? "" : ". " + method.message) };
     if (hasGaps)
     {
-      row.insert(row.begin() + 5, px(method.commonErrorPx.mean));
+      row.insert(row.begin() + 5, method.commonErrorPx.count > 0 ? px(method.commonErrorPx.mean) : std::string());
     }
     table.rows.push_back(std::move(row));
   }
@@ -106,8 +100,7 @@ Table subsetsTable(const std::vector<MethodResult>& methods)
         if (sizes[column - 1] == subset.sampleCount && subset.repetitions > 0)
         {
           const int share = 100 * subset.usable / subset.repetitions;
-          row[column] =
-            (subset.usable > 0 && std::isfinite(subset.medianPx) ? fixedDigits(subset.medianPx, 2) : std::string("none")) +
+          row[column] = (std::isfinite(subset.medianPx) ? fixedDigits(subset.medianPx, 2) : std::string("none")) +
             (share < 100 && share > 0 ? " (" + std::to_string(share) + " %)" : "");
         }
       }

@@ -101,7 +101,7 @@ std::optional<Plot> errorAgainstSamples(const std::vector<MethodResult>& methods
     for (const SubsetErrors& subset : methods[i].subsets)
     {
       // With the failures as the worst, the median is none where half of the subsets failed.
-      if (std::isfinite(subset.medianPx) && subset.usable > 0)
+      if (std::isfinite(subset.medianPx))
       {
         series.x.push_back(subset.sampleCount);
         series.y.push_back(subset.medianPx);

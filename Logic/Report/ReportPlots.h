@@ -16,7 +16,7 @@ namespace handeye::report
 /// The plots of the reports, ready for drawPlot(); nothing where there is nothing to show. Each usable method has the colour of its
 /// place in the comparison in all of them.
 
-/// A series with the look of a method, which is the same in all plots and pictures: solid lines and filled marks for the methods with
+/// A series with the look of a method, which is the same in all plots: solid lines and filled marks for the methods with
 /// the ball, dashed lines, plus and cross for those with a board; a colour each within its kind.
 [[nodiscard]] PlotSeries seriesOf(const std::vector<MethodResult>& methods, std::size_t index, PlotSeries::Style style);
 

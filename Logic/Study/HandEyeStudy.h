@@ -75,8 +75,9 @@ struct StudyCheck
 {
   std::string what;  ///< "lowest maximum of the six methods"
   bool holds = false;
-  std::string measured;  ///< "ml 3.71 px, tsai 3.47 px"
-  std::string reason;    ///< empty where it holds
+  std::string measured;      ///< "ml 3.71 px, tsai 3.47 px"
+  std::string reason;        ///< empty where it holds
+  bool isOfThePaper = true;  ///< false: of a method that the paper does not have
 };
 
 /// Whether what the paper reports holds for a camera.
@@ -90,7 +91,8 @@ struct StudyClaim
   double branchAndBoundMaximum = 0;
   double trackedBoardMean = 0;        ///< the mean error of `tracked-board` over that of `ml`; 0 where it gave none
   double branchAndBoundTrueMean = 0;  ///< the same of the calibrations' own errors
-  std::vector<StudyCheck> checks;     ///< mean and maximum, as validated and the calibrations' own; the factor of three
+  /// Mean and maximum, as validated and the calibrations' own; a board that is tracked; the factor of three.
+  std::vector<StudyCheck> checks;
   std::string message;
 };
 

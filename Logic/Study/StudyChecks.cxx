@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HandEyeStudy.h"
 #include "NumberWords.h"
+#include "StudyConditions.h"
+#include "StudyMethods.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,24 +24,7 @@ std::string px(double value)
   return fixedDigits(value, 2) + " px";
 }
 
-const MethodResult* find(const ComparisonResult& comparison, const std::string& name)
-{
-  const auto found = std::find_if(comparison.methods.begin(), comparison.methods.end(),
-    [&](const MethodResult& method) { return method.name == name && method.isUsable(); });
-  return found != comparison.methods.end() ? &*found : nullptr;
-}
-
 using Predicate = bool (*)(const MethodResult&);
-
-bool isOfThePaper(const MethodResult& method)
-{
-  return method.target == ComparedMethod::Target::Board && method.name.rfind("tracked-", 0) != 0 && method.isUsable();
-}
-
-bool isWithTrackedBoard(const MethodResult& method)
-{
-  return method.name.rfind("tracked-", 0) == 0 && method.isUsable();
-}
 
 using Quantity = double (*)(const MethodResult&);
 
@@ -60,7 +45,7 @@ std::vector<const MethodResult*> rivalsIn(
   std::vector<const MethodResult*> rivals;
   for (const MethodResult& method : comparison.methods)
   {
-    if (isRival(method))
+    if (isRival(method) && method.isUsable())
     {
       rivals.push_back(&method);
     }
@@ -129,7 +114,7 @@ double quantileOf(const MethodResult& method, double share)
 std::string reasonOfMaximum(const StudyCameraResult& result, const MethodResult& ours, const MethodResult& rival)
 {
   const std::optional<Place> worst = worstOf(ours);
-  const MethodResult *trueOurs = find(result.truth, ours.name), *trueRival = find(result.truth, rival.name);
+  const MethodResult *trueOurs = findMethod(result.truth, ours.name), *trueRival = findMethod(result.truth, rival.name);
   if (!worst || trueOurs == nullptr || trueRival == nullptr)
   {
     return {};
@@ -146,26 +131,54 @@ std::string reasonOfMaximum(const StudyCameraResult& result, const MethodResult&
     px(trueRival->errorPx.maximum) + ".";
 }
 
+/// What of a board is better in this study than in practice; empty where nothing is.
+std::string favourWords(const StudyNoise& noise)
+{
+  std::string text;
+  const std::pair<const char*, bool> parts[] = { { "print", noise.boardScaleShare < BoardScaleOfPractice },
+    { "corners", noise.cornerSigmaPx < CornerPxOfPractice },
+    { "lens", noise.lensFocalShare < LensFocalOfPractice && noise.lensCenterPx < LensCenterPxOfPractice } };
+  for (const auto& [part, isBetter] : parts)
+  {
+    text += !isBetter ? "" : (text.empty() ? " Better here than in practice, which favours the board: " : ", ") + std::string(part);
+  }
+  return text.empty() ? text : text + ".";
+}
+
 /// What becomes of the two under the study's conditions; empty where they were not looked into.
 std::string conditionWords(const StudyCameraResult& result, const MethodResult& ours, const MethodResult& rival)
 {
   std::string text;
   for (const StudyConditionResult& condition : result.byCondition)
   {
-    const MethodResult *trueOurs = find(condition.truth, ours.name), *trueRival = find(condition.truth, rival.name);
+    const MethodResult *trueOurs = findMethod(condition.truth, ours.name), *trueRival = findMethod(condition.truth, rival.name);
     if (trueOurs != nullptr && trueRival != nullptr)
     {
       text += (text.empty() ? "" : "; ") + condition.words + ": " + fixedDigits(trueOurs->errorPx.mean, 2) + " and " +
         px(trueRival->errorPx.mean);
     }
   }
-  return text.empty() ? text
-                      : " Print, corners and lens favour the board here. Own mean errors of " + ours.name + " and " + rival.name +
-      " by condition: " + text + ".";
+  return text.empty()
+    ? text
+    : favourWords(result.noise) + " Own mean errors of " + ours.name + " and " + rival.name + " by condition: " + text + ".";
 }
 
-/// The best methods by their own errors, so close that the sample decides?
-std::string reasonOfOwn(const MethodResult& ours, const MethodResult& rival)
+/// What one sample gives to a method with a ball and one with a board.
+std::string sampleWords(const StudyCameraResult& result)
+{
+  return "A ball takes two tracked markers a sample and gives one point; a view of a board that stands still takes one and gives " +
+    std::to_string(result.camera.board.pointCount()) + ".";
+}
+
+/// The calibrations' own means: the noise of what each was calibrated from.
+std::string reasonOfOwnMean(const StudyCameraResult& result, const MethodResult& ours, const MethodResult& rival)
+{
+  return rival.name + " has " + px(rival.errorPx.mean) + " against " + px(ours.errorPx.mean) +
+    ", without any noise of the validation. " + sampleWords(result) + conditionWords(result, ours, rival);
+}
+
+/// The calibrations' own maxima: each is one sample of one calibration, which the means and the bulk of the samples need not follow.
+std::string reasonOfOwnMaximum(const MethodResult& ours, const MethodResult& rival)
 {
   return rival.name + " has a mean of " + px(rival.errorPx.mean) + " against " + px(ours.errorPx.mean) +
     ", 99 % of the samples below " + px(quantileOf(rival, 0.99)) + " against " + px(quantileOf(ours, 0.99)) + ": the largest of " +
@@ -174,16 +187,15 @@ std::string reasonOfOwn(const MethodResult& ours, const MethodResult& rival)
 
 std::string reasonOfMean(const StudyCameraResult& result, const MethodResult& ours, const MethodResult& rival)
 {
-  return "A perfect calibration with the true lens would show " + px(result.floorPx.mean) +
-    ". A ball takes two tracked markers a sample and gives one point; a view of a board that stands still takes one and gives " +
-    std::to_string(result.camera.board.pointCount()) + "." + conditionWords(result, ours, rival);
+  return "A perfect calibration with the true lens would show " + px(result.floorPx.mean) + ". " + sampleWords(result) +
+    conditionWords(result, ours, rival);
 }
 
 std::string reasonOfTrackedBoard(const StudyCameraResult& result)
 {
   return "It is not one of the paper's five. Each of its views has " + std::to_string(result.camera.board.pointCount()) +
-    " points, whose places on its marker are known exactly here; in practice they are touched with the stylus, and that error is "
-    "added.";
+    " points, whose places on its marker are known exactly here" + (result.noise.boardScaleShare > 0 ? " but for the print" : "") +
+    "; in practice they are touched with the stylus, and that error is added.";
 }
 
 StudyCheck compare(const std::string& what, const ComparisonResult& comparison, const MethodResult& ours, Quantity quantity,
@@ -203,29 +215,33 @@ StudyCheck compare(const std::string& what, const ComparisonResult& comparison, 
   return check;
 }
 
-/// How many times the error of branch and bound is at the smallest range of the board's directions, where that was looked at.
+/// How many times the error of branch and bound is by the range of the board's directions, in the same repetitions.
 std::string tiltWords(const StudyCameraResult& result)
 {
   std::string text;
+  std::size_t repetitions = 0;
   for (const StudyTiltResult& tilt : result.byTilt)
   {
-    const MethodResult *ours = find(tilt.comparison, "ml"), *rival = find(tilt.comparison, "branch-and-bound");
-    if (ours != nullptr && rival != nullptr)
+    const MethodResult *ours = findMethod(tilt.comparison, "ml"), *rival = findMethod(tilt.comparison, "branch-and-bound");
+    const std::optional<double> ratio = ours != nullptr && rival != nullptr ? ratioOfMeans(*rival, *ours) : std::nullopt;
+    if (ratio)
     {
-      text += (text.empty() ? " By how far off its normal the board was looked at: " : ", ") +
-        fixedDigits(rival->errorPx.mean / ours->errorPx.mean, 1) + " times up to " + fixedDigits(tilt.tiltDeg, 0) + " degrees";
+      repetitions = std::min(ours->captures.size(), rival->captures.size());
+      text += (text.empty() ? " By how far off its normal the board was looked at: " : ", ") + fixedDigits(*ratio, 1) +
+        " times up to " + fixedDigits(tilt.tiltDeg, 0) + " degrees";
     }
   }
   return text.empty() ? text
-                      : text +
-      ": a still board gives the rotation through the camera's own turning only, and the factor is that of a "
+                      : text + ", over the " + std::to_string(repetitions) +
+      " repetitions that have a branch and bound: a still board gives the rotation through the camera's own turning only, and the "
+      "factor is that of a "
       "camera that is hardly turned.";
 }
 
 std::optional<StudyCheck> checkFactor(const StudyCameraResult& result, const MethodResult& ours)
 {
-  const MethodResult* rival = find(result.comparison, "branch-and-bound");
-  const MethodResult *trueOurs = find(result.truth, ours.name), *trueRival = find(result.truth, "branch-and-bound");
+  const MethodResult* rival = findMethod(result.comparison, "branch-and-bound");
+  const MethodResult *trueOurs = findMethod(result.truth, ours.name), *trueRival = findMethod(result.truth, "branch-and-bound");
   if (result.camera.name != "laparoscope" || rival == nullptr || trueOurs == nullptr || trueRival == nullptr)
   {
     return std::nullopt;
@@ -249,7 +265,7 @@ std::optional<StudyCheck> checkFactor(const StudyCameraResult& result, const Met
 
 std::vector<StudyCheck> checkClaims(const StudyCameraResult& result)
 {
-  const MethodResult *ours = find(result.comparison, "ml"), *trueOurs = find(result.truth, "ml");
+  const MethodResult *ours = findMethod(result.comparison, "ml"), *trueOurs = findMethod(result.truth, "ml");
   std::vector<StudyCheck> checks;
   if (ours == nullptr || trueOurs == nullptr || rivalsIn(result.comparison, *ours, meanOf).empty())
   {
@@ -260,14 +276,15 @@ std::vector<StudyCheck> checkClaims(const StudyCameraResult& result)
   StudyCheck maximum = compare("lowest maximum, as validated", result.comparison, *ours, maximumOf);
   maximum.reason = maximum.holds ? "" : reasonOfMaximum(result, *ours, *rivalsIn(result.comparison, *ours, maximumOf).front());
   StudyCheck ownMean = compare("lowest mean of the calibrations' own errors", result.truth, *trueOurs, meanOf);
-  ownMean.reason = ownMean.holds ? "" : reasonOfOwn(*trueOurs, *rivalsIn(result.truth, *trueOurs, meanOf).front());
+  ownMean.reason = ownMean.holds ? "" : reasonOfOwnMean(result, *trueOurs, *rivalsIn(result.truth, *trueOurs, meanOf).front());
   StudyCheck ownMaximum = compare("lowest maximum of the calibrations' own errors", result.truth, *trueOurs, maximumOf);
-  ownMaximum.reason = ownMaximum.holds ? "" : reasonOfOwn(*trueOurs, *rivalsIn(result.truth, *trueOurs, maximumOf).front());
+  ownMaximum.reason = ownMaximum.holds ? "" : reasonOfOwnMaximum(*trueOurs, *rivalsIn(result.truth, *trueOurs, maximumOf).front());
   checks = { mean, maximum, ownMean, ownMaximum };
   if (!rivalsIn(result.comparison, *ours, meanOf, isWithTrackedBoard).empty())
   {
     checks.push_back(
       compare("lower mean than a board that is tracked itself", result.comparison, *ours, meanOf, isWithTrackedBoard));
+    checks.back().isOfThePaper = false;
     checks.back().reason = checks.back().holds ? "" : reasonOfTrackedBoard(result);
   }
   if (const std::optional<StudyCheck> factor = checkFactor(result, *ours))

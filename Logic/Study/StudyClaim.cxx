@@ -3,6 +3,7 @@
 #include "HandEyeStudy.h"
 #include "NumberWords.h"
 #include "StudyConditions.h"
+#include "StudyMethods.h"
 
 #include <algorithm>
 
@@ -11,13 +12,6 @@ namespace handeye::study
 
 namespace
 {
-
-const MethodResult* find(const ComparisonResult& comparison, const std::string& name)
-{
-  const auto found = std::find_if(comparison.methods.begin(), comparison.methods.end(),
-    [&](const MethodResult& method) { return method.name == name && method.isUsable(); });
-  return found != comparison.methods.end() ? &*found : nullptr;
-}
 
 std::string ratioWords(double ratio)
 {
@@ -29,11 +23,12 @@ std::string practiceWords(const StudyCameraResult& result)
 {
   for (const StudyConditionResult& condition : result.byCondition)
   {
-    const MethodResult *ours = find(condition.comparison, "ml"), *rival = find(condition.comparison, "park");
+    const MethodResult *ours = findMethod(condition.comparison, "ml"), *rival = lowestWithBoard(condition.comparison);
     if (condition.words == ConditionOfPractice && ours != nullptr && rival != nullptr)
     {
       return "; with corners, print and lens as in practice " + fixedDigits(ours->errorPx.mean, 2) + " px against " +
-        fixedDigits(rival->errorPx.mean, 2) + " px (park)";
+        fixedDigits(rival->errorPx.mean, 2) + " px (" + rival->name +
+        ", the lowest with a board that stands still, branch and bound not being among them)";
     }
   }
   return {};
@@ -66,7 +61,7 @@ StudyClaim judgeClaim(const StudyCameraResult& result)
 {
   StudyClaim claim;
   claim.camera = result.camera.name;
-  const MethodResult* ours = find(result.comparison, "ml");
+  const MethodResult* ours = findMethod(result.comparison, "ml");
   if (ours == nullptr)
   {
     claim.message = result.camera.name + ": the point-to-line calibration gave no result.";
@@ -80,8 +75,7 @@ StudyClaim judgeClaim(const StudyCameraResult& result)
     {
       continue;
     }
-    const bool isTracked = method.name.rfind("tracked-", 0) == 0;
-    const bool isRival = method.target == ComparedMethod::Target::Board && !isTracked;
+    const bool isRival = isOfThePaper(method);
     claim.hasLowestMean = claim.hasLowestMean && !(isRival && method.errorPx.mean <= ours->errorPx.mean);
     claim.hasLowestMaximum = claim.hasLowestMaximum && !(isRival && method.errorPx.maximum <= ours->errorPx.maximum);
     leastMean = method.errorPx.mean < leastMean->errorPx.mean ? &method : leastMean;
@@ -89,15 +83,15 @@ StudyClaim judgeClaim(const StudyCameraResult& result)
   }
   claim.lowestMean = leastMean->name;
   claim.lowestMaximum = leastMaximum->name;
-  const MethodResult* rival = find(result.comparison, "branch-and-bound");
-  const MethodResult *trueRival = find(result.truth, "branch-and-bound"), *trueOurs = find(result.truth, "ml");
+  const MethodResult* rival = findMethod(result.comparison, "branch-and-bound");
+  const MethodResult *trueRival = findMethod(result.truth, "branch-and-bound"), *trueOurs = findMethod(result.truth, "ml");
   if (rival != nullptr && trueRival != nullptr && trueOurs != nullptr && ours->errorPx.maximum > 0 && trueOurs->errorPx.mean > 0)
   {
     claim.branchAndBoundMean = rival->errorPx.mean / ours->errorPx.mean;
     claim.branchAndBoundMaximum = rival->errorPx.maximum / ours->errorPx.maximum;
     claim.branchAndBoundTrueMean = trueRival->errorPx.mean / trueOurs->errorPx.mean;
   }
-  const MethodResult* tracked = find(result.comparison, "tracked-board");
+  const MethodResult* tracked = findMethod(result.comparison, "tracked-board");
   claim.trackedBoardMean = tracked != nullptr && ours->errorPx.mean > 0 ? tracked->errorPx.mean / ours->errorPx.mean : 0;
   claim.checks = checkClaims(result);
   claim.message = describe(claim, *ours, result);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StudyConditions.h"
 
+#include "NumberWords.h"
+
 #include <algorithm>
 
 namespace handeye::study
@@ -10,32 +12,45 @@ namespace handeye::study
 namespace
 {
 
-// What boards and lenses have in practice, one standard deviation.
-constexpr double CornerPx = 0.1;          // of corners in pictures of a room
-constexpr double BoardScaleShare = 2e-3;  // of an office printer's page
-constexpr double LensFocalShare = 2e-3;   // of a calibration from some twenty views
-constexpr double LensCenterPx = 2;
+std::string percent(double share)
+{
+  return significantDigits(100 * share, 3) + " %";
+}
+
+bool areEqual(const StudyNoise& a, const StudyNoise& b)
+{
+  return a.cornerSigmaPx == b.cornerSigmaPx && a.boardScaleShare == b.boardScaleShare && a.lensFocalShare == b.lensFocalShare &&
+    a.lensCenterPx == b.lensCenterPx && a.stylusShare == b.stylusShare;
+}
 
 }  // namespace
 
 std::vector<StudyCondition> studyConditions(const TrialSize& size, const StudyNoise& noise)
 {
-  std::vector<StudyCondition> conditions(7, { "as it is", noise, size });
-  conditions[1].words = "corners found to 0.1 px";
-  conditions[1].noise.cornerSigmaPx = std::max(noise.cornerSigmaPx, CornerPx);
-  conditions[2].words = "board printed 0.2 % off";
-  conditions[2].noise.boardScaleShare = std::max(noise.boardScaleShare, BoardScaleShare);
-  conditions[3].words = "lens 0.2 % and 2 px off";
-  conditions[3].noise.lensFocalShare = std::max(noise.lensFocalShare, LensFocalShare);
-  conditions[3].noise.lensCenterPx = std::max(noise.lensCenterPx, LensCenterPx);
-  conditions[4].words = ConditionOfPractice;
-  conditions[4].noise = conditions[3].noise;
-  conditions[4].noise.cornerSigmaPx = conditions[1].noise.cornerSigmaPx;
-  conditions[4].noise.boardScaleShare = conditions[2].noise.boardScaleShare;
-  conditions[5].words = "stylus tracked without noise";
-  conditions[5].noise.stylusShare = 0;
-  conditions[6].words = "twice as many balls";
-  conditions[6].size.ballSamples *= 2;
+  std::vector<StudyCondition> conditions = { { "as it is", noise, size } };
+  const auto add = [&](const std::string& words, const StudyNoise& changed)
+  {
+    if (!areEqual(changed, noise))
+    {
+      conditions.push_back({ words, changed, size });
+    }
+  };
+  StudyNoise corners = noise, print = noise, lens = noise, stylus = noise;
+  corners.cornerSigmaPx = std::max(noise.cornerSigmaPx, CornerPxOfPractice);
+  print.boardScaleShare = std::max(noise.boardScaleShare, BoardScaleOfPractice);
+  lens.lensFocalShare = std::max(noise.lensFocalShare, LensFocalOfPractice);
+  lens.lensCenterPx = std::max(noise.lensCenterPx, LensCenterPxOfPractice);
+  add("corners found to " + significantDigits(corners.cornerSigmaPx, 3) + " px", corners);
+  add("board printed " + percent(print.boardScaleShare) + " off", print);
+  add("lens " + percent(lens.lensFocalShare) + " and " + significantDigits(lens.lensCenterPx, 3) + " px off", lens);
+  StudyNoise together = lens;
+  together.cornerSigmaPx = corners.cornerSigmaPx;
+  together.boardScaleShare = print.boardScaleShare;
+  add(ConditionOfPractice, together);
+  stylus.stylusShare = noise.trackingSigmaMm > 0 || noise.trackingSigmaRad > 0 ? 0 : noise.stylusShare;
+  add("stylus tracked without noise", stylus);
+  conditions.push_back({ "twice as many balls", noise, size });
+  conditions.back().size.ballSamples *= 2;
   return conditions;
 }
 

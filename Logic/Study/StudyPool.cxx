@@ -46,6 +46,7 @@ void finish(ComparisonResult& comparison)
     summarizeMethod(method);
     comparison.validationCount = std::max(comparison.validationCount, method.errorPx.count);
   }
+  comparison.hasPairedCaptures = true;
   judgeComparison(comparison);
 }
 

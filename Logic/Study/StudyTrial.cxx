@@ -58,11 +58,8 @@ private:
     Eigen::Matrix3d matrix = eye_.camera.cameraMatrix();
     const double focal = random_.normal(noise_.lensFocalShare);
     const Eigen::Vector2d center = random_.normal2(noise_.lensCenterPx);
-    if (pictures_ == nullptr)
-    {
-      matrix.topLeftCorner<2, 2>() *= 1 + focal;
-      matrix.topRightCorner<2, 1>() += center;
-    }
+    matrix.topLeftCorner<2, 2>() *= 1 + focal;
+    matrix.topRightCorner<2, 1>() += center;
     return CameraModel(eye_.camera.width(), eye_.camera.height(), matrix, eye_.camera.distortionCoefficients());
   }
 
@@ -117,7 +114,8 @@ private:
     {
       const BallDetection found = pictures_->findBall(ball_Camera, method, pictureSeed_);
       sample.ball_Image = found.ball_Image;
-      sample.ray_Eye = found.ray_Camera;
+      // Found with the true lens, looked at with the one that the methods are told.
+      sample.ray_Eye = found.isFound() ? lens_.unproject(found.ball_Image).ray_Camera : found.ray_Camera;
       sample.apparentDistanceMm = found.distanceMm;
       sample.sigmaPx = std::sqrt(found.covariance_Image.trace() / 2);
       return found.isFound();
@@ -175,7 +173,10 @@ private:
   {
     if (pictures_ != nullptr)
     {
-      const BoardDetection found = pictures_->findBoard(boardToCamera, random_.seed());
+      // A board that is printed larger looks like one of the right size that is nearer by the same ratio.
+      Eigen::Isometry3d drawnToCamera = boardToCamera;
+      drawnToCamera.translation() /= boardScale_;
+      const BoardDetection found = pictures_->findBoard(drawnToCamera, random_.seed());
       view.ids = found.ids;
       view.points_Board = found.points_Board;
       view.points_Image = found.points_Image;

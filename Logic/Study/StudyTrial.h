@@ -47,7 +47,8 @@ struct StudyTrial
 /// ball is held at random places in the view and the depths, the camera looks at a board that stands still from random directions,
 /// and the ball is held at other places for the validation. Every pose of every marker has fresh noise.
 ///
-/// @param pictures the features are found in rendered pictures, with the true lens; without, they are projected and given the noise
+/// @param pictures the features are found in rendered pictures, taken with the true lens and of the board as it was printed; their
+///   noise is that of the pictures. Without, they are projected and given the noise
 /// Thread-safe, deterministic.
 [[nodiscard]] StudyTrial makeTrial(const StudyCamera& camera, const StudyEye& eye, const StudyNoise& noise, const TrialSize& size,
   unsigned seed, const StudyPictures* pictures = nullptr);

@@ -56,8 +56,11 @@ nlohmann::json methodJson(const MethodResult& method)
   if (method.isUsable())
   {
     json["projectionErrorPx"] = summaryJson(method.errorPx);
-    json["commonProjectionErrorPx"] = summaryJson(method.commonErrorPx);
     json["successShare"] = method.successShare;
+    if (method.commonErrorPx.count > 0)
+    {
+      json["commonProjectionErrorPx"] = summaryJson(method.commonErrorPx);
+    }
   }
   for (const ComparedCapture& capture : method.captures)
   {
@@ -144,8 +147,8 @@ std::string methodsCsv(const ComparisonResult& result)
     text += line({ method.name, toString(method.target), method.status, number(error.mean), number(error.standardDeviation),
       number(error.minimum), number(error.maximum), number(error.rms), std::to_string(error.count),
       std::to_string(method.usableCount()), std::to_string(method.captures.size()), csvNumber(method.medianSeconds()),
-      number(method.commonErrorPx.mean), std::to_string(method.commonErrorPx.count), method.title, method.reference,
-      method.message });
+      method.commonErrorPx.count > 0 ? csvNumber(method.commonErrorPx.mean) : std::string(),
+      std::to_string(method.commonErrorPx.count), method.title, method.reference, method.message });
   }
   return text;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 namespace handeye
@@ -37,6 +38,27 @@ ErrorMap errorsOf(const MethodResult& method)
   return errors;
 }
 
+/// The mean error over the captures at each validation sample.
+ErrorMap averagedOverCaptures(const ErrorMap& errors)
+{
+  std::map<int, std::vector<double>> bySample;
+  for (const auto& [key, error] : errors)
+  {
+    bySample[key.second].push_back(error);
+  }
+  ErrorMap averaged;
+  for (const auto& [sample, values] : bySample)
+  {
+    averaged[{ 0, sample }] = summarize(values).mean;
+  }
+  return averaged;
+}
+
+bool shareCaptures(const ComparisonResult& result, const MethodResult& a, const MethodResult& b)
+{
+  return result.hasPairedCaptures || a.target == b.target;
+}
+
 /// How far (px) another capture would have moved the method's calibration, where that is known.
 double expectedShift(const MethodResult& method)
 {
@@ -48,11 +70,14 @@ double expectedShift(const MethodResult& method)
 /// Whether the mean of the paired differences is within twice its standard error. The errors of one calibration go together, so the
 /// capture is the unit from 5 captures on; below that the samples are, and a difference must exceed what another capture would have
 /// changed as well.
-bool areAlike(const MethodResult& a, const MethodResult& b)
+/// Methods with different targets have captures of their own, each of which might have been another.
+bool areAlike(const ComparisonResult& result, const MethodResult& a, const MethodResult& b)
 {
+  const bool share = shareCaptures(result, a, b);
   std::map<int, std::vector<double>> byCapture;
-  const auto ofB = errorsOf(b);
-  for (const auto& [key, error] : errorsOf(a))
+  const ErrorMap ofA = share ? errorsOf(a) : averagedOverCaptures(errorsOf(a));
+  const ErrorMap ofB = share ? errorsOf(b) : averagedOverCaptures(errorsOf(b));
+  for (const auto& [key, error] : ofA)
   {
     const auto other = ofB.find(key);
     if (other != ofB.end())
@@ -78,7 +103,8 @@ bool areAlike(const MethodResult& a, const MethodResult& b)
   }
   const Summary summary = summarize(differences);
   const double noise = 2 * summary.standardDeviation / std::sqrt(double(summary.count));
-  return std::abs(summary.mean) <= std::max(noise, byCapture.size() >= 5 ? 0.0 : expectedShift(a));
+  const double shift = share ? expectedShift(a) : std::hypot(expectedShift(a), expectedShift(b));
+  return std::abs(summary.mean) <= std::max(noise, byCapture.size() >= 5 ? 0.0 : shift);
 }
 
 std::string errorWords(const MethodResult& method)
@@ -110,23 +136,50 @@ Summary summaryOf(const ErrorMap& errors)
   return summarize(values);
 }
 
-/// What a method compares with others by: its errors where all of `ranked` have one; its own where there is no such place.
+/// Of the errors of a method those where all of `others` that share its captures have one, at samples for which the rest has one in
+/// any capture.
+ErrorMap commonErrors(const ComparisonResult& result, const MethodResult& method, const std::vector<int>& others)
+{
+  ErrorMap common = errorsOf(method);
+  std::map<ComparedMethod::Target, ErrorMap> elsewhere;
+  for (const int index : others)
+  {
+    const MethodResult& other = result.methods[std::size_t(index)];
+    if (shareCaptures(result, method, other))
+    {
+      common = alsoIn(common, errorsOf(other));
+      continue;
+    }
+    const auto [found, isFirst] = elsewhere.emplace(other.target, errorsOf(other));
+    found->second = isFirst ? found->second : alsoIn(found->second, errorsOf(other));
+  }
+  for (const auto& [target, errors] : elsewhere)
+  {
+    const ErrorMap seen = averagedOverCaptures(errors);
+    for (auto one = common.begin(); one != common.end();)
+    {
+      one = seen.count({ 0, one->first.second }) > 0 ? std::next(one) : common.erase(one);
+    }
+  }
+  return common;
+}
+
+/// What a method compares with others by; its own errors where they have nothing in common. Each validation sample has the same
+/// weight for methods whose captures differ.
 void findCommonErrors(ComparisonResult& result, const std::vector<int>& ranked)
 {
-  std::vector<ErrorMap> all;
+  const auto target = [&](int index) { return result.methods[std::size_t(index)].target; };
+  const bool areMixed =
+    std::any_of(ranked.begin(), ranked.end(), [&](int index) { return target(index) != target(ranked.front()); });
   for (const int index : ranked)
   {
-    all.push_back(errorsOf(result.methods[std::size_t(index)]));
-  }
-  for (std::size_t i = 0; i < ranked.size(); ++i)
-  {
-    ErrorMap common = all[i];
-    for (const ErrorMap& other : all)
-    {
-      common = alsoIn(common, other);
-    }
-    MethodResult& method = result.methods[std::size_t(ranked[i])];
+    MethodResult& method = result.methods[std::size_t(index)];
+    const ErrorMap common = commonErrors(result, method, ranked);
     method.commonErrorPx = common.empty() ? method.errorPx : summaryOf(common);
+    if (areMixed && !result.hasPairedCaptures && !common.empty())
+    {
+      method.commonErrorPx.mean = summaryOf(averagedOverCaptures(common)).mean;
+    }
   }
 }
 
@@ -142,7 +195,7 @@ std::vector<int> sortOutIncomplete(ComparisonResult& result)
   for (std::size_t i = 0; i < result.methods.size(); ++i)
   {
     MethodResult& method = result.methods[i];
-    method.commonErrorPx = method.errorPx;
+    method.commonErrorPx = {};
     if (method.isUsable())
     {
       (method.successShare >= LeastSuccess * best ? ranked : result.incomplete).push_back(int(i));
@@ -153,12 +206,13 @@ std::vector<int> sortOutIncomplete(ComparisonResult& result)
   return ranked;
 }
 
-/// The best method of a target, in the order of the ranking; null where there is none.
+/// The best method of a target among those that are ranked with the others; null where there is none.
 const MethodResult* bestOf(const ComparisonResult& result, ComparedMethod::Target target)
 {
   for (const int index : result.ranking)
   {
-    if (result.methods[std::size_t(index)].target == target)
+    const bool isComplete = std::find(result.incomplete.begin(), result.incomplete.end(), index) == result.incomplete.end();
+    if (isComplete && result.methods[std::size_t(index)].target == target)
     {
       return &result.methods[std::size_t(index)];
     }
@@ -184,13 +238,13 @@ std::string describeIncomplete(const ComparisonResult& result)
   for (const int index : result.incomplete)
   {
     const MethodResult& method = result.methods[std::size_t(index)];
-    const ErrorMap own = errorsOf(method);
-    const ErrorMap same = alsoIn(errorsOf(best), own);
+    const bool share = shareCaptures(result, method, best);
+    const ErrorMap own = share ? errorsOf(method) : averagedOverCaptures(errorsOf(method));
+    const ErrorMap same = alsoIn(share ? errorsOf(best) : averagedOverCaptures(errorsOf(best)), own);
     text += (text.empty() ? " Not ranked with the others, having no result where they have one: " : "; ") + method.name + " (" +
       std::to_string(method.usableCount()) + " of " + std::to_string(method.captures.size()) + " calibrations, " +
       fixedDigits(method.errorPx.mean, 2) + " px mean over what it has" +
-      (same.empty() || &method == &best ? "" : ", where " + best.name + " has " + fixedDigits(summaryOf(same).mean, 2) + " px") +
-      ")";
+      (same.empty() ? "" : ", where " + best.name + " has " + fixedDigits(summaryOf(same).mean, 2) + " px") + ")";
   }
   return text.empty() ? text : text + ".";
 }
@@ -291,7 +345,7 @@ void judgeComparison(ComparisonResult& result)
   for (std::size_t i = 1; i < complete; ++i)
   {
     const MethodResult& best = result.methods[std::size_t(result.ranking.front())];
-    if (areAlike(best, result.methods[std::size_t(result.ranking[i])]))
+    if (areAlike(result, best, result.methods[std::size_t(result.ranking[i])]))
     {
       result.notToldApart.push_back(result.ranking[i]);
     }

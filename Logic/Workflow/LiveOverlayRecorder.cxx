@@ -24,6 +24,14 @@ struct Picture
   OverlayTransformSet transforms;
 };
 
+/// Waiting pictures may take so much memory, however few they are.
+constexpr std::size_t MostWaitingBytes = std::size_t(512) << 20;
+
+std::size_t bytesOf(const Picture& picture)
+{
+  return picture.bgr.total() * picture.bgr.elemSize();
+}
+
 /// Which frame of a video a picture is, by its time.
 class FramePlaces
 {
@@ -83,11 +91,13 @@ public:
     {
       return false;
     }
-    if (waiting_.size() >= mostWaiting_)
+    const std::size_t bytes = bytesOf(picture);
+    if (waiting_.size() >= mostWaiting_ || (!waiting_.empty() && waitingBytes_ + bytes > MostWaitingBytes))
     {
       leaveOut("the encoder does not keep up with the pictures");
       return false;
     }
+    waitingBytes_ += bytes;
     waiting_.push_back(std::move(picture));
     changed_.notify_one();
     return true;
@@ -132,6 +142,7 @@ private:
     }
     Picture picture = std::move(waiting_.front());
     waiting_.pop_front();
+    waitingBytes_ -= bytesOf(picture);
     isWriting_ = true;
     return picture;
   }
@@ -155,12 +166,24 @@ private:
       const std::lock_guard lock(mutex_);
       state_.error = error.what();
       isFinishing_ = true;
+      for (std::size_t lost = waiting_.size() + (isWriting_ ? 1 : 0); lost > 0; --lost)
+      {
+        leaveOut(state_.error);
+      }
+      waiting_.clear();
+      waitingBytes_ = 0;
+      isWriting_ = false;
     }
   }
 
   void write(const Picture& picture)
   {
-    const int frames = places_.next(picture.timeSec);
+    FramePlaces places = places_;
+    if (!std::isfinite(picture.timeSec))
+    {
+      throw std::invalid_argument("the time of a picture is not a finite number");
+    }
+    const int frames = places.next(picture.timeSec);
     if (frames == 0)
     {
       const std::lock_guard lock(mutex_);
@@ -172,12 +195,43 @@ private:
     {
       recorder_.append(last_.bgr, last_.timeSec, last_.transforms);
     }
-    recorder_.append(picture.bgr, picture.timeSec, picture.transforms);
-    last_ = picture;
+    const std::string refusal = appendOrSayWhyNot(picture);
+    if (!refusal.empty() && last_.bgr.empty())
+    {
+      throw std::invalid_argument(refusal);
+    }
+    if (!refusal.empty())
+    {
+      // It has a time all the same: the picture before stays in its place.
+      recorder_.append(last_.bgr, last_.timeSec, last_.transforms);
+    }
+    places_ = places;
+    last_ = refusal.empty() ? picture : last_;
     const std::lock_guard lock(mutex_);
-    ++state_.pictureCount;
+    if (refusal.empty())
+    {
+      ++state_.pictureCount;
+    }
+    else
+    {
+      leaveOut(refusal);
+    }
     state_.frameCount = recorder_.frameCount();
     state_.encoder = recorder_.encoder();
+  }
+
+  /// @return empty, or why the picture cannot be a frame of this video
+  std::string appendOrSayWhyNot(const Picture& picture)
+  {
+    try
+    {
+      recorder_.append(picture.bgr, picture.timeSec, picture.transforms);
+      return {};
+    }
+    catch (const std::invalid_argument& error)
+    {
+      return error.what();
+    }
   }
 
   /// With the mutex locked.
@@ -194,6 +248,7 @@ private:
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Picture> waiting_;
+  std::size_t waitingBytes_ = 0;
   State state_;
   bool isFinishing_ = false, isWriting_ = false;
   std::thread thread_;

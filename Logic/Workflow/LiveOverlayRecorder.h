@@ -18,8 +18,9 @@ namespace handeye
 /// begins anew), or nothing came for more than LongestGapSec, the video goes on without a gap.
 ///
 /// Nothing that was taken is lost: finish() and the destructor write all of it before the files get their names. What cannot be
-/// taken is counted and said: pictures that come while `mostWaiting` wait for the encoder, those that are faster than the file's
-/// rate, and those of another size than the first.
+/// taken is counted and said: pictures that come while `mostWaiting` or 512 MB of them wait for the encoder, those that are faster
+/// than the file's rate, those of another size than the first (the picture before stays in their place), and those that wait when
+/// there is an error.
 ///
 /// add(), finish() and state() may be called from any thread.
 class LiveOverlayRecorder

@@ -108,10 +108,12 @@ struct MethodResult
   bool isOurs = false;
   std::vector<ComparedCapture> captures;  ///< in the order of the method's captures
   Summary errorPx;                        ///< over all usable captures and all validation samples
-  Summary commonErrorPx;                  ///< where every ranked method has an error: what the ranking compares
-  double successShare = 0;                ///< of the errors that it would have, had no capture failed and no ball left the view
-  std::string status;                     ///< "ok" if one capture at least was usable; otherwise that of the first
-  std::string message;                    ///< what became of the captures that were not usable; otherwise the answer's own
+  /// What the ranking compares: where every ranked method of its target has an error, at validation samples for which those of the
+  /// other target have one, too; nothing for a method that is not ranked with the others.
+  Summary commonErrorPx;
+  double successShare = 0;  ///< of the errors that it would have, had no capture failed and no ball left the view
+  std::string status;       ///< "ok" if one capture at least was usable; otherwise that of the first
+  std::string message;      ///< what became of the captures that were not usable; otherwise the answer's own
   std::vector<SubsetErrors> subsets;
   Repeatability repeatability;
 
@@ -123,7 +125,7 @@ struct MethodResult
 struct ComparisonResult
 {
   std::vector<MethodResult> methods;  ///< in the order given
-  /// Indices of the usable ones: by their mean error where all of them have one, the lowest first; then those of `incomplete`.
+  /// Indices of the usable ones: by the mean of their commonErrorPx, the lowest first; then those of `incomplete`.
   std::vector<int> ranking;
   /// Usable ones that failed so much more often than others that their mean is one of easy cases: ranked after all others.
   std::vector<int> incomplete;
@@ -132,6 +134,9 @@ struct ComparisonResult
   /// would have changed.
   std::vector<int> notToldApart;
   int validationCount = 0;
+  /// Capture k of the ball and capture k of the board are one repetition with one validation set, as in a simulation. Otherwise they
+  /// have nothing in common, and methods with different targets are compared by their mean errors at each validation sample.
+  bool hasPairedCaptures = false;
   bool wasStopped = false;
   std::string status;   ///< "ok", "no_validation", "no_method", "stopped"
   std::string message;  ///< the verdict, for a person

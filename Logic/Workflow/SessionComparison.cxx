@@ -5,7 +5,9 @@
 #include "BallDetector.h"
 #include "ComparedBoardCapture.h"
 #include "ComparedBoardMethods.h"
+#include "DistinctCaptures.h"
 #include "NumberWords.h"
+#include "TimedPose.h"
 
 #include <cmath>
 
@@ -27,11 +29,13 @@ public:
 
   SessionComparison run()
   {
+    addPaths();
     const io::Recording capture = io::Recording::open(input_.captureFolder);
     SessionComparison comparison{ {}, cameraForRecording(input_.camera, capture), {}, input_.validation, {}, {} };
     comparison.validation = toSamples(input_.validation);
     comparison.validationRecording = io::Recording::open(input_.validationFolder);
     comparison.facts = { describeInput(comparison) };
+    distinct_.addSamples(input_.validationFolder, comparison.validation);
     std::vector<BallCapture> balls = { ownCapture(capture, comparison) };
     for (const std::filesystem::path& path : input_.otherCaptures)
     {
@@ -56,6 +60,16 @@ public:
   }
 
 private:
+  void addPaths()
+  {
+    distinct_.addPath(input_.validationFolder, "the validation set");
+    distinct_.addPath(input_.captureFolder, "the session's own capture");
+    for (const std::filesystem::path& path : input_.otherCaptures)
+    {
+      distinct_.addPath(path, "a further capture");
+    }
+  }
+
   bool tell(const std::string& what, int done, int total)
   {
     isStopped_ = isStopped_ || (progress_ && !progress_(what, done, total));
@@ -85,7 +99,7 @@ private:
   static std::string describeBall(const std::filesystem::path& path, const BallCapture& capture)
   {
     return "Ball: " + path.string() + ", " + std::to_string(capture.samples.size()) + " samples, " +
-      std::to_string(capture.publishedSamples.size()) + " of them found by the paper's segmentation.";
+      std::to_string(capture.publishedSamples.size()) + " by the paper's segmentation.";
   }
 
   BallDetectionOptions publishedDetection() const
@@ -112,6 +126,7 @@ private:
       tell("looking for the ball as the paper does", int(i) + 1, int(input_.capture.size()));
     }
     BallCapture capture{ toSamples(input_.capture), toSamples(published) };
+    distinct_.addSamples(input_.captureFolder, capture.samples);
     comparison.facts.push_back(describeBall(input_.captureFolder, capture));
     return capture;
   }
@@ -128,14 +143,17 @@ private:
     ToolNames tools = input_.tools;
     // The poses of a session are those of its samples' own moments.
     tools.latencySec = std::filesystem::exists(path / "session.json") ? 0 : tools.latencySec;
+    const std::vector<std::string> notes = latencyNotes(recording, tools.latencySec);
     const auto read = [&](const BallDetectionOptions& options, const std::string& what)
     {
       return toSamples(
         readCapture(recording, tools, camera, input_.tip_Stylus, input_.ballRadiusMm, options, telling(what + path.string())));
     };
     capture.samples = read(input_.detection, "looking for the ball in ");
+    distinct_.addSamples(path, capture.samples);
     capture.publishedSamples = isStopped_ ? std::vector<HandEyeSample>() : read(publishedDetection(), "as the paper does, in ");
     comparison.facts.push_back(describeBall(path, capture));
+    comparison.facts.insert(comparison.facts.end(), notes.begin(), notes.end());
     return capture;
   }
 
@@ -145,9 +163,12 @@ private:
     {
       return {};
     }
-    const ComparedBoardCapture capture = readComparedBoard(io::Recording::open(input_.boardRecording), *input_.board,
-      comparison.camera, input_.tools, {}, telling("looking for the board"));
+    const io::Recording recording = io::Recording::open(input_.boardRecording);
+    const std::vector<std::string> notes = latencyNotes(recording, input_.tools.latencySec);
+    const ComparedBoardCapture capture =
+      readComparedBoard(recording, *input_.board, comparison.camera, input_.tools, {}, telling("looking for the board"));
     comparison.facts.push_back(capture.fact);
+    comparison.facts.insert(comparison.facts.end(), notes.begin(), notes.end());
     BoardMethodsOptions options;
     options.withBranchAndBound = input_.branchAndBoundSec > 0;
     options.options.timeLimitSec = options.withBranchAndBound ? input_.branchAndBoundSec : options.options.timeLimitSec;
@@ -162,6 +183,7 @@ private:
 
   const SessionComparisonInput& input_;
   const ComparisonProgress& progress_;
+  DistinctCaptures distinct_;
   bool isStopped_ = false;
 };
 

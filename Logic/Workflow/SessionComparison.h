@@ -32,7 +32,8 @@ struct SessionComparisonInput
   /// Samples to calibrate from and to validate on; `frame` is the number of the picture in the folder.
   std::vector<CapturedFrame> capture, validation;
   std::filesystem::path captureFolder, validationFolder;
-  /// Independent captures of the ball, for the repeatability: recordings or sessions.
+  /// Independent captures of the ball, for the repeatability: recordings or sessions that share no sample with each other, the
+  /// session's own capture or its validation.
   std::vector<std::filesystem::path> otherCaptures;
   /// A board that stands still while the tracked camera moves; without it only the methods with the ball are compared.
   std::filesystem::path boardRecording;
@@ -58,7 +59,8 @@ using ComparisonProgress = std::function<bool(const std::string& what, int done,
 /// looked at by the paper's segmentation as well.
 ///
 /// @return `result.wasStopped` where progress said so
-/// @throws io::FileError, std::invalid_argument where a file cannot be read or does not belong to the camera
+/// @throws io::FileError, std::invalid_argument where a file cannot be read or does not belong to the camera, where captures have
+/// samples in common (see DistinctCaptures), and where a latency cannot be applied to a recording's poses (see latencyNotes())
 /// Thread-safe; needs no session to be open.
 [[nodiscard]] SessionComparison compareSession(const SessionComparisonInput& input, const ComparisonProgress& progress = {});
 

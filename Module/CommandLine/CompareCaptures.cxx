@@ -3,6 +3,7 @@
 #include "CompareCaptures.h"
 
 #include "ComparedBoardCapture.h"
+#include "DistinctCaptures.h"
 #include "StopSignal.h"
 #include "TimedPose.h"
 
@@ -59,11 +60,18 @@ void readBoards(const CompareInputs& inputs, const CommandOutput& output, Compar
 CompareCaptures readCompareCaptures(
   const CompareInputs& inputs, const CameraModel& camera, const BallOptions& ball, const CommandOutput& output)
 {
+  DistinctCaptures distinct;
+  distinct.addPath(inputs.validation, "the validation set");
+  for (const std::string& path : inputs.ballRecordings)
+  {
+    distinct.addPath(path, "a capture of the ball");
+  }
   io::Recording validation = openRecording(inputs.validation, inputs.tools, output);
   const CameraModel sized = cameraForRecording(camera, validation);
   std::vector<CapturedFrame> frames =
     findBall(inputs, validation, sized, ball.forRecording(validation, output), output, "validation");
   std::vector<HandEyeSample> samples = toSamples(frames);
+  distinct.addSamples(inputs.validation, samples);
   CompareCaptures captures{ sized, std::move(validation), std::move(frames), std::move(samples), {}, {}, {} };
   for (const std::string& path : inputs.ballRecordings)
   {
@@ -71,6 +79,7 @@ CompareCaptures readCompareCaptures(
     BallDetectionOptions options = ball.forRecording(recording, output);
     BallCapture capture;
     capture.samples = toSamples(findBall(inputs, recording, sized, options, output, path));
+    distinct.addSamples(path, capture.samples);
     if (inputs.withPublished)
     {
       options.method = BallDetectionOptions::Method::Hough;

@@ -60,16 +60,18 @@ std::function<bool(const std::string&, int, int)> comparisonProgress()
 
 void sayMethods(const ComparisonResult& result, const CommandOutput& output)
 {
-  output.say("method                 mean     std     min     max     RMS px   errors   calibrations");
-  for (const MethodResult& method : result.methods)
+  output.say("method              rank    mean     std     min     max     RMS px   errors   calibrations");
+  const std::vector<std::string> ranks = report::ranksOf(result);
+  for (std::size_t i = 0; i < result.methods.size(); ++i)
   {
+    const MethodResult& method = result.methods[i];
     char line[200];
     const Summary& error = method.errorPx;
     if (method.isUsable())
     {
-      std::snprintf(line, sizeof(line), "%-18s %8.2f%8.2f%8.2f%8.2f%8.2f %11d   %d of %zu", method.name.c_str(), error.mean,
-        error.standardDeviation, error.minimum, error.maximum, error.rms, error.count, method.usableCount(),
-        method.captures.size());
+      std::snprintf(line, sizeof(line), "%-18s %5s%8.2f%8.2f%8.2f%8.2f%8.2f %11d   %d of %zu", method.name.c_str(),
+        ranks[i].c_str(), error.mean, error.standardDeviation, error.minimum, error.maximum, error.rms, error.count,
+        method.usableCount(), method.captures.size());
       output.say(line);
     }
     else
@@ -78,6 +80,8 @@ void sayMethods(const ComparisonResult& result, const CommandOutput& output)
       output.say(line + method.status + " (" + method.message + ")");
     }
   }
+  output.say("rank                 ~: not told apart from the first by these data" +
+    std::string(result.incomplete.empty() ? "" : "; apart: failed where others did not, its errors are of easier cases"));
 }
 
 std::vector<std::string> factsOf(const CompareArguments& arguments, const CompareCaptures& captures)

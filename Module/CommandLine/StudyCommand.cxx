@@ -84,6 +84,77 @@ int runStudyCommand(StudyArguments& arguments)
   return arguments.output.finish(study::studyJson(result));
 }
 
+/// How many repetitions look into what.
+void addRepetitionOptions(CLI::App& command, study::StudyOptions& options)
+{
+  const CLI::Range some(0, 100000);
+  command.add_option("--subsets", options.subsetRepetitions, "Repetitions that also vary the number of samples from 3 to 30")
+    ->check(some)
+    ->capture_default_str();
+  command
+    .add_option(
+      "--tilts", options.tiltRepetitions, "Repetitions for each range of the board's directions, 5 to 45 degrees; 0 for none")
+    ->check(some)
+    ->capture_default_str();
+  command
+    .add_option("--conditions", options.conditionRepetitions,
+      "Repetitions with one thing changed at a time: corners, print, lens, stylus, number of balls; 0 for none")
+    ->check(some)
+    ->capture_default_str();
+  command
+    .add_option("--render", options.renderedRepetitions,
+      "Repetitions whose balls and boards are rendered and found by the detectors, besides the others")
+    ->check(some)
+    ->capture_default_str();
+  command.add_option("--noise-pictures", options.noisePictures, "Rendered pictures from which the features' noise is measured")
+    ->check(CLI::Range(4, 100000))
+    ->capture_default_str();
+}
+
+/// Noise and errors, and how the board is looked at.
+void addNoiseOptions(CLI::App& command, StudyArguments& arguments)
+{
+  study::StudyOptions& options = arguments.options;
+  command.add_option("--tracking-noise-mm", options.trackingSigmaMm, "Of every pose, per axis")
+    ->check(CLI::NonNegativeNumber)
+    ->capture_default_str()
+    ->type_name("MM");
+  command.add_option("--tracking-noise-deg", options.trackingSigmaDeg, "Of every pose, per axis")
+    ->check(CLI::NonNegativeNumber)
+    ->capture_default_str()
+    ->type_name("DEG");
+  command
+    .add_option("--lens-focal-error", arguments.focalErrorPercent,
+      "Error of the focal length that the methods are told, %, one standard deviation")
+    ->check(CLI::Range(0.0, 9.0))
+    ->capture_default_str()
+    ->type_name("PERCENT");
+  command.add_option("--lens-center-error", options.lensCenterPx, "The same of the principal point, px per axis")
+    ->check(CLI::NonNegativeNumber)
+    ->capture_default_str()
+    ->type_name("PX");
+  command
+    .add_option(
+      "--corner-noise", options.cornerSigmaPx, "Of the board's corners, px per axis, instead of what is measured on pictures")
+    ->check(CLI::NonNegativeNumber)
+    ->type_name("PX");
+  command
+    .add_option("--board-print-error", arguments.boardErrorPercent,
+      "Error of the size in which the board is printed, %, one standard deviation")
+    ->check(CLI::Range(0.0, 9.0))
+    ->capture_default_str()
+    ->type_name("PERCENT");
+  command.add_option("--board-tilt", options.size.boardTiltDeg, "The board is looked at from up to so far off its normal")
+    ->check(CLI::Range(1.0, 70.0))
+    ->capture_default_str()
+    ->type_name("DEG");
+  command.add_option("--board-roll", options.size.boardRollDeg, "The camera is turned about its axis by up to so much")
+    ->check(CLI::Range(0.0, 180.0))
+    ->capture_default_str()
+    ->type_name("DEG");
+  command.add_flag("--no-noise", options.isNoiseFree, "No noise at all: every method must find the truth");
+}
+
 }  // namespace
 
 void addStudyCommand(CLI::App& app, int& exitCode)
@@ -94,7 +165,7 @@ void addStudyCommand(CLI::App& app, int& exitCode)
     "The paper's evaluation in simulation: webcam, head-mounted stereo camera, stereo laparoscope; every method, many repetitions");
   command->add_option("--report", arguments->report, "Write report.html, report.pdf and the data as CSV into this folder")
     ->type_name("DIR");
-  const CLI::Range count(1, 100000), some(0, 100000);
+  const CLI::Range count(1, 100000);
   command->add_option("--repetitions", options.repetitions, "Captures of each camera and eye")->check(count)->capture_default_str();
   command->add_option("--seed", options.seed, "Of everything random")->capture_default_str();
   command->add_option("--jobs", options.jobs, "Threads")->check(CLI::Range(1, 256))->capture_default_str();
@@ -109,65 +180,8 @@ void addStudyCommand(CLI::App& app, int& exitCode)
   command->add_option("--board-views", options.size.boardViews, "Views of the board of a capture")
     ->check(CLI::Range(3, 1000))
     ->capture_default_str();
-  command->add_option("--subsets", options.subsetRepetitions, "Repetitions that also vary the number of samples from 3 to 30")
-    ->check(some)
-    ->capture_default_str();
-  command
-    ->add_option(
-      "--tilts", options.tiltRepetitions, "Repetitions for each range of the board's directions, 5 to 45 degrees; 0 for none")
-    ->check(some)
-    ->capture_default_str();
-  command
-    ->add_option("--conditions", options.conditionRepetitions,
-      "Repetitions with one thing changed at a time: corners, print, lens, stylus, number of balls; 0 for none")
-    ->check(some)
-    ->capture_default_str();
-  command
-    ->add_option("--render", options.renderedRepetitions,
-      "Repetitions whose balls and boards are rendered and found by the detectors, besides the others")
-    ->check(some)
-    ->capture_default_str();
-  command->add_option("--noise-pictures", options.noisePictures, "Rendered pictures from which the features' noise is measured")
-    ->check(CLI::Range(4, 100000))
-    ->capture_default_str();
-  command->add_option("--tracking-noise-mm", options.trackingSigmaMm, "Of every pose, per axis")
-    ->check(CLI::NonNegativeNumber)
-    ->capture_default_str()
-    ->type_name("MM");
-  command->add_option("--tracking-noise-deg", options.trackingSigmaDeg, "Of every pose, per axis")
-    ->check(CLI::NonNegativeNumber)
-    ->capture_default_str()
-    ->type_name("DEG");
-  command
-    ->add_option("--lens-focal-error", arguments->focalErrorPercent,
-      "Error of the focal length that the methods are told, %, one standard deviation")
-    ->check(CLI::Range(0.0, 9.0))
-    ->capture_default_str()
-    ->type_name("PERCENT");
-  command->add_option("--lens-center-error", options.lensCenterPx, "The same of the principal point, px per axis")
-    ->check(CLI::NonNegativeNumber)
-    ->capture_default_str()
-    ->type_name("PX");
-  command
-    ->add_option(
-      "--corner-noise", options.cornerSigmaPx, "Of the board's corners, px per axis, instead of what is measured on pictures")
-    ->check(CLI::NonNegativeNumber)
-    ->type_name("PX");
-  command
-    ->add_option("--board-print-error", arguments->boardErrorPercent,
-      "Error of the size in which the board is printed, %, one standard deviation")
-    ->check(CLI::Range(0.0, 9.0))
-    ->capture_default_str()
-    ->type_name("PERCENT");
-  command->add_option("--board-tilt", options.size.boardTiltDeg, "The board is looked at from up to so far off its normal")
-    ->check(CLI::Range(1.0, 70.0))
-    ->capture_default_str()
-    ->type_name("DEG");
-  command->add_option("--board-roll", options.size.boardRollDeg, "The camera is turned about its axis by up to so much")
-    ->check(CLI::Range(0.0, 180.0))
-    ->capture_default_str()
-    ->type_name("DEG");
-  command->add_flag("--no-noise", options.isNoiseFree, "No noise at all: every method must find the truth");
+  addRepetitionOptions(*command, options);
+  addNoiseOptions(*command, *arguments);
   arguments->output.addTo(*command);
   command->callback([arguments, &exitCode] { exitCode = runStudyCommand(*arguments); });
 }

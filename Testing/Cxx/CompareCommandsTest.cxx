@@ -154,6 +154,26 @@ TEST_F(CompareCommands, SeveralCaptures_GiveTheRepeatability)
   EXPECT_TRUE(ml.at("subsets").empty());
 }
 
+TEST_F(CompareCommands, Text_SaysRanks)
+{
+  const CommandResult result = run(compare({ "--ball", file("first"), "--subsets", "0", "--without-published" }));
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_NE(result.out.find("method              rank    mean"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("    1    0."), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("~: not told apart from the first"), std::string::npos) << result.out;
+}
+
+TEST_F(CompareCommands, WhatIsValidatedOnOrThereTwice_IsRefused)
+{
+  for (const std::vector<std::string>& twice :
+    { std::vector<std::string>{ "--ball", file("validation") }, { "--ball", file("first"), "--ball", file("first") + "/" } })
+  {
+    const CommandResult refused = run(compare(twice));
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_NE(refused.err.find("no method may be fitted to what it is judged by"), std::string::npos) << refused.err;
+  }
+}
+
 TEST_F(CompareCommands, NothingToCalibrateFrom_IsWrongUse)
 {
   const CommandResult result = run(compare({}));

@@ -129,7 +129,7 @@ TEST_F(ComparisonReport, MethodThatIsRankedApart_IsMarked)
   EXPECT_NE(table.caption.find("apart: failed where others did not"), std::string::npos);
 }
 
-TEST_F(ComparisonReport, FourteenMethods_LookDifferent)
+TEST_F(ComparisonReport, SixteenMethods_LookDifferent)
 {
   std::vector<MethodResult> methods(16, result.methods.front());
   for (std::size_t i = 9; i < methods.size(); ++i)
@@ -144,6 +144,35 @@ TEST_F(ComparisonReport, FourteenMethods_LookDifferent)
     looks.insert({ series.color, series.marker, series.isDashed });
   }
   EXPECT_EQ(looks.size(), methods.size());
+}
+
+TEST_F(ComparisonReport, MethodsInAPicture_HaveColoursOfTheirOwn)
+{
+  // With a board, place 0 of its kind, as `ml` is of the ball's.
+  ComparisonResult both = result;
+  for (const char* const name : { "tsai", "branch-and-bound" })
+  {
+    both.methods.push_back(result.methods.front());
+    both.methods.back().name = name;
+    both.methods.back().target = ComparedMethod::Target::Board;
+  }
+  both.methods[1].name = "as-published";
+  judgeComparison(both);
+  const std::vector<report::PredictedCenter> predicted = report::predictedCenters(both, 0);
+  ASSERT_GE(predicted.size(), 5U);
+  std::set<report::Color> colours;
+  std::set<std::string> names;
+  for (const report::PredictedCenter& center : predicted)
+  {
+    colours.insert(center.color);
+    names.insert(center.label);
+  }
+  EXPECT_EQ(colours.size(), predicted.size());
+  EXPECT_EQ(colours.count(report::seriesColor(2)), 0U) << "green is the segmented ball";
+  for (const char* const name : { "ml", "tsai", "branch-and-bound", "as-published" })
+  {
+    EXPECT_EQ(names.count(name), 1U) << name;
+  }
 }
 
 TEST_F(ComparisonReport, WithoutPictures_StillAReport)

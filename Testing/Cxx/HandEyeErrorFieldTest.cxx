@@ -90,7 +90,8 @@ TEST(HandEyeErrorField, BetweenItsNodes_ItIsThePredictionItself)
     const double error = std::sqrt(field.covariancePx(pixel, depthMm).trace());
     worst = std::max(worst, std::abs(error / *predictProjectionErrorPx(covariance, { camera }, pixel, depthMm) - 1));
   }
-  EXPECT_LT(worst, 0.04);  // in the corners of a very wide lens, where turns and shifts nearly make up for each other
+  // In the corners of a very wide lens, where turns and shifts nearly make up for each other.
+  EXPECT_LT(worst, 0.04);  // 3.4 % is the worst of 20,000 places
 }
 
 TEST(HandEyeErrorField, ShiftsFadeWithTheDistance_TurnsDoNot)

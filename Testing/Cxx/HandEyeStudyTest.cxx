@@ -297,7 +297,8 @@ TEST(HandEyeStudy, CornerNoise_IsWhatWasAskedFor)
   EXPECT_LT(noisy.measured.cornerSigmaPx, 0.1) << "what was measured stays said";
   options.lensFocalShare = 0.02;
   EXPECT_EQ(runStudy(options).cameras[0].floorPx.count, noisy.floorPx.count);
-  EXPECT_LT(runStudy(options).cameras[0].floorPx.mean, 1.5 * noisy.floorPx.mean) << "the validation's noise has no part of the lens";
+  EXPECT_LT(runStudy(options).cameras[0].floorPx.mean, 1.5 * noisy.floorPx.mean)
+    << "the validation's noise has no part of the lens";
   options.boardScaleShare = 0.5;
   EXPECT_THROW((void)runStudy(options), std::invalid_argument);
 }
@@ -315,7 +316,7 @@ TEST(HandEyeStudy, Report_HasATableACamera)
   EXPECT_NE(html.find("tracked-board-lines"), std::string::npos);
   EXPECT_NE(html.find("lowest maximum of the calibrations&#39; own errors"), std::string::npos)
     << "each statement, whether it holds";
-  EXPECT_NE(html.find("these three together"), std::string::npos) << "what the order depends on";
+  EXPECT_NE(html.find("corners, print and lens together"), std::string::npos) << "what the order depends on";
   for (const char* const name : { "report.pdf", "webcam-methods.csv", "webcam-true.csv", "webcam-subsets.csv",
          "webcam-distance.png", "webcam-samples.png", "webcam-repeatability.csv", "webcam-tilt.png" })
   {

@@ -151,17 +151,46 @@ TEST(LiveOverlayRecorder, WhatIsLeftOut_IsCountedAndSaid)
   EXPECT_EQ(fast.state().pictureCount + fast.state().leftOutCount, 40);
 }
 
+TEST(LiveOverlayRecorder, PictureOfAnotherSize_TakesItsTimeAllTheSame)
+{
+  const fs::path folder = freshFolder();
+  OverlayRecorderOptions options;
+  options.framesPerSec = 10;
+  LiveOverlayRecorder recorder(folder / "overlay.avi", options);
+  recorder.add(cv::Mat(120, 160, CV_8UC1, cv::Scalar(9)), 0.5, {});  // before the first there is nothing that could stay
+  recorder.add(picture(0), 1, placed(0));
+  recorder.add(picture(1, { 80, 60 }), 1.2, placed(1));
+  recorder.add(picture(2), 1.3, placed(2));
+  recorder.add(picture(3, { 80, 60 }), 1.4, placed(3));
+  recorder.finish();
+  while (!recorder.state().isFinished)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_EQ(recorder.state().pictureCount, 2);
+  EXPECT_EQ(recorder.state().leftOutCount, 3);
+  EXPECT_EQ(recorder.state().frameCount, 5);
+  EXPECT_EQ(picturesIn(folder / "overlay.avi"), (std::vector<int>{ 0, 0, 0, 2, 2 }));
+  EXPECT_EQ(io::SequenceMetafile::open(folder / "overlay.igs.mha").frameCount(), 5);
+}
+
 TEST(LiveOverlayRecorder, VideoThatCannotBeWritten_EndsWithItsReason)
 {
   EXPECT_THROW(LiveOverlayRecorder("overlay.gif"), io::FileError);
   const fs::path folder = freshFolder();
   LiveOverlayRecorder nowhere(folder / "no" / "such" / "overlay.avi");
-  nowhere.add(picture(0), 1, {});
+  int taken = 0;
+  for (int i = 0; i < 20; ++i)
+  {
+    taken += nowhere.add(picture(0), 1 + i / 30.0, {}) ? 1 : 0;
+  }
   while (!nowhere.state().isFinished)
   {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   EXPECT_FALSE(nowhere.state().error.empty());
+  EXPECT_EQ(nowhere.state().waitingCount, 0) << "nobody waits for what is never written";
+  EXPECT_EQ(nowhere.state().leftOutCount, taken);
   EXPECT_FALSE(nowhere.add(picture(1), 1.1, {}));
   LiveOverlayRecorder empty(folder / "empty.avi");
   empty.finish();

@@ -225,6 +225,62 @@ TEST_F(MethodComparison, DifficultCaptureThatOneFails_IsLeftOutForAll)
     << result.message;
 }
 
+TEST_F(MethodComparison, CapturesOfBallAndBoard_HaveNothingInCommonButTheValidation)
+{
+  // Five captures of the ball, one of a board. The first of the ball's is the only one in which `b` is the better one.
+  const ComparedMethod a = known("a", { moved(3), moved(0.5), moved(0.5), moved(0.5), moved(0.5) });
+  const ComparedMethod b = known("b", { moved(0.5), moved(2), moved(2), moved(2), moved(2) });
+  ComparedMethod board = known("board", { moved(1.25) });
+  board.target = ComparedMethod::Target::Board;
+  const ComparisonResult result = compareMethods({ b, board, a }, validation, camera);
+  EXPECT_EQ(result.ranking, (std::vector<int>{ 2, 1, 0 }));
+  EXPECT_EQ(result.methods[2].commonErrorPx.count, 5 * 12) << "all captures of the ball";
+  EXPECT_NEAR(result.methods[2].commonErrorPx.mean, 2, 1e-9);
+  EXPECT_NEAR(result.methods[1].commonErrorPx.mean, 2.5, 1e-9);
+  EXPECT_NEAR(result.methods[0].commonErrorPx.mean, 3.4, 1e-9);
+}
+
+TEST_F(MethodComparison, SampleThatTheBoardDoesNotSee_IsLeftOutForTheBallToo)
+{
+  const ComparisonResult ball = compareMethods({ known("a", { moved(1), moved(1) }) }, validation, camera);
+  ComparisonResult result = ball;
+  result.methods.push_back(ball.methods[0]);
+  result.methods[1].target = ComparedMethod::Target::Board;
+  result.methods[1].captures.resize(1);
+  result.methods[1].captures[0].validation.samples[3].status = CameraModel::Status::BehindCamera;
+  result.methods[0].captures[1].validation.samples[5].status = CameraModel::Status::BehindCamera;
+  for (MethodResult& method : result.methods)
+  {
+    summarizeMethod(method);
+  }
+  judgeComparison(result);
+  EXPECT_EQ(result.methods[0].commonErrorPx.count, 24 - 1 - 2);
+  EXPECT_EQ(result.methods[1].commonErrorPx.count, 12 - 1) << "sample 5 was seen in a capture of the ball";
+  // Capture k of both is one repetition: only what both have in the same one counts.
+  result.hasPairedCaptures = true;
+  judgeComparison(result);
+  EXPECT_EQ(result.methods[0].commonErrorPx.count, 12 - 1);
+  EXPECT_EQ(result.methods[1].commonErrorPx.count, 12 - 1);
+}
+
+TEST_F(MethodComparison, IncompleteMethod_IsNotTheBestOfItsTargetAndHasNoCommonMean)
+{
+  ComparedMethod patchy = known("patchy", { truth, truth });
+  patchy.target = ComparedMethod::Target::Board;
+  patchy.calibrate = [whole = patchy.calibrate](int capture)
+  {
+    MethodAnswer answer = whole(capture);
+    answer.status = capture == 0 ? "ok" : "no_fit";
+    return answer;
+  };
+  const ComparisonResult result = compareMethods({ known("steady", { moved(1), moved(1) }), patchy }, validation, camera);
+  EXPECT_EQ(result.incomplete, (std::vector<int>{ 1 }));
+  EXPECT_EQ(result.message.find("The best of the methods with a board"), std::string::npos) << result.message;
+  EXPECT_EQ(result.methods[1].commonErrorPx.count, 0);
+  EXPECT_FALSE(comparisonJson(result)["methods"][1].contains("commonProjectionErrorPx"));
+  EXPECT_NE(methodsCsv(result).find(",,0,known,nobody"), std::string::npos) << methodsCsv(result);
+}
+
 TEST_F(MethodComparison, SubsetsThatFail_CountAsTheWorst)
 {
   ComparedMethod method = known("lucky", { truth });

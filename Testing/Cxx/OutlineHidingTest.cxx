@@ -67,6 +67,28 @@ TEST(OutlineHiding, ShareOfWedge_HasItsDerivatives)
   }
 }
 
+TEST(OutlineHiding, NormalsThatAreNearlyAlike_CountAsAsFarApartAsCanBeTold)
+{
+  constexpr double Step = 0.02;
+  for (const double cosine : { -1.0, -0.99, -0.975, 0.975, 0.99, 1.0 })
+  {
+    const double told = cosine < 0 ? -0.97 : 0.97;
+    for (const double inside : { -1.2, 0.1, 1.4 })
+    {
+      for (const double seen : { -0.8, 0.3, 1.1 })
+      {
+        SCOPED_TRACE(::testing::Message() << inside << ", " << seen << ", cosine " << cosine);
+        const WedgeShare at = shareOfWedge(inside, seen, cosine), atTold = shareOfWedge(inside, seen, told);
+        EXPECT_EQ(at.share, atTold.share);
+        const auto share = [&](double h, double k) { return shareOfWedge(h, k, cosine).share; };
+        // Ten points of a rule: the bivariate density is narrow there.
+        EXPECT_NEAR(at.byInside, (share(inside + Step, seen) - share(inside - Step, seen)) / (2 * Step), 0.02);
+        EXPECT_NEAR(at.bySeen, (share(inside, seen + Step) - share(inside, seen - Step)) / (2 * Step), 0.02);
+      }
+    }
+  }
+}
+
 TEST(OutlineHiding, FarFromEitherLine_ThereIsOnlyTheOther)
 {
   EXPECT_NEAR(shareOfWedge(0.7, 9, 0.4).share, 0.5 * std::erfc(-0.7 / std::sqrt(2.0)), 1e-3);

@@ -39,9 +39,12 @@ namespace
 const char Board[] = "charuco:8x6:25:18:DICT_5X5_100";
 const QString Demo = QStringLiteral(HANDEYE_RESOURCES_DIR "/Demo/");
 
-/// A board that stands still in front of the demo's camera, which moves; tracking with the noise of a good tracker.
-/// @param isTurning false: the camera only moves sideways
-void writeBoard(const QString& path, bool isTurning)
+io::CameraFile demoCamera()
+{
+  return io::readCameraFile((Demo + QStringLiteral("camera.yml")).toStdString());
+}
+
+Eigen::Isometry3d demoMarkerToCamera()
 {
   std::ifstream file((Demo + QStringLiteral("truth.json")).toStdString());
   const nlohmann::json truth = nlohmann::json::parse(file);
@@ -50,8 +53,30 @@ void writeBoard(const QString& path, bool isTurning)
   {
     markerToCamera(i / 4, i % 4) = truth["markerToCamera"][std::size_t(i / 4)][std::size_t(i % 4)].get<double>();
   }
-  const test::BoardScene scene{ parseBoard(Board), io::readCameraFile((Demo + QStringLiteral("camera.yml")).toStdString()).camera,
-    markerToCamera };
+  return markerToCamera;
+}
+
+/// A further capture by the demo's camera: the demo's own are what is calibrated from and validated on.
+void writeFurtherCapture(const QString& path, const CaptureInputs& inputs)
+{
+  test::SimulatedSession session(0);
+  session.camera = demoCamera().camera;
+  session.markerToCamera = demoMarkerToCamera();
+  session.tip_Stylus = inputs.tip_Stylus;
+  session.ballRadiusMm = inputs.ballRadiusMm;
+  test::Random random(21);
+  for (int i = 0; i < 8; ++i)
+  {
+    session.balls_Camera.push_back(test::randomPointInView(session.camera, { 200, 400, 0.2 }, random));
+  }
+  session.write(path.toStdString(), session.trackAll(4));
+}
+
+/// A board that stands still in front of the demo's camera, which moves; tracking with the noise of a good tracker.
+/// @param isTurning false: the camera only moves sideways
+void writeBoard(const QString& path, bool isTurning)
+{
+  const test::BoardScene scene{ parseBoard(Board), demoCamera().camera, demoMarkerToCamera() };
   const simulation::BoardPicture pictures(scene.board, scene.camera);
   test::BoardViews how;
   how.nearestMm = 280;
@@ -200,8 +225,10 @@ void WizardComparisonTest::withoutSamples_ItSaysWhereToGetThem_AndNextIsOpen()
 void WizardComparisonTest::methodsWithTheBall_AreComparedAndStored()
 {
   fill();
-  page()->addCapture(Demo + QStringLiteral("validation"));
-  QVERIFY(driver_->onPage<QLabel>("captureLabel")->text().contains(QStringLiteral("validation")));
+  const QString further = folder_.filePath(QStringLiteral("further"));
+  writeFurtherCapture(further, *panel_->workbench().capture().inputs());
+  page()->addCapture(further);
+  QVERIFY(driver_->onPage<QLabel>("captureLabel")->text().contains(QStringLiteral("further")));
   compare();
   const ComparisonResult& result = task().result()->result;
   const auto* table = driver_->onPage<ComparisonTable>("table");
@@ -307,6 +334,11 @@ void WizardComparisonTest::wrongFiles_AreRefusedInWords()
   QVERIFY(!driver_->onPage("compareButton")->isEnabled());
   driver_->click(driver_->onPage("noBoardButton"));
   QVERIFY(driver_->onPage("compareButton")->isEnabled());
+  // What is validated on is no further capture.
+  page()->addCapture(Demo + QStringLiteral("validation"));
+  driver_->click(driver_->onPage("compareButton"));
+  QTRY_VERIFY_WITH_TIMEOUT(!task().isWorking(), PatienceMs);
+  QVERIFY2(driver_->message().contains(QStringLiteral("those of the validation set")), qPrintable(driver_->message()));
 }
 
 void WizardComparisonTest::report_IsWrittenAndOpened()
