@@ -136,9 +136,9 @@ bool vtkSlicerHandEyeCalibrationLogic::RunStep(unsigned long event, const std::f
   }
   if (!this->Internal->IsRunning)
   {
-    for (const std::function<void()>& forget : std::exchange(this->Internal->Forgetting, {}))
+    for (const std::function<bool()>& forget : std::exchange(this->Internal->Forgetting, {}))
     {
-      forget();
+      this->Forget(forget);
     }
   }
   return end.isUsable;

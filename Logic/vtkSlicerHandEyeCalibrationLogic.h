@@ -239,6 +239,7 @@ private:
   struct StepEnd;
 
   bool RunStep(unsigned long event, const std::function<StepEnd()>& step);
+  void Forget(const std::function<bool()>& forget);
   bool ReportProgress(int done, int total);
 
   std::string CameraFile;

@@ -87,7 +87,7 @@ public:
   std::string LastMessage;
   std::vector<std::string> LastWarnings;
   bool IsRunning = false;
-  std::vector<std::function<void()>> Forgetting;  ///< asked for while a step was running
+  std::vector<std::function<bool()>> Forgetting;  ///< asked for while a step was running
   std::atomic<bool> CancelRequested{ false };
 
   vtkNew<vtkTable> SampleTable;

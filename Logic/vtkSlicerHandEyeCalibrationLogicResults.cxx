@@ -148,48 +148,57 @@ void vtkSlicerHandEyeCalibrationLogic::SetStylusTip(double x, double y, double z
   }
 }
 
-void vtkSlicerHandEyeCalibrationLogic::ForgetResults()
+/// At once, or when the step that is running has ended.
+void vtkSlicerHandEyeCalibrationLogic::Forget(const std::function<bool()>& forget)
 {
   if (this->Internal->IsRunning)
   {
-    this->Internal->Forgetting.push_back([this] { this->ForgetResults(); });
-    return;
+    this->Internal->Forgetting.push_back(forget);
   }
-  this->Internal->Stylus.reset();
-  this->Internal->Phantom.reset();
-  this->Internal->ForgetCalibration();
-  this->Internal->LastMessage.clear();
-  this->Internal->LastWarnings.clear();
-  this->Modified();
-  this->InvokeEvent(ResultsForgottenEvent);
+  else if (forget())
+  {
+    this->Modified();
+    this->InvokeEvent(ResultsForgottenEvent);
+  }
+}
+
+void vtkSlicerHandEyeCalibrationLogic::ForgetResults()
+{
+  this->Forget(
+    [internal = this->Internal.get()]
+    {
+      internal->Stylus.reset();
+      internal->Phantom.reset();
+      internal->ForgetCalibration();
+      internal->LastMessage.clear();
+      internal->LastWarnings.clear();
+      return true;
+    });
 }
 
 void vtkSlicerHandEyeCalibrationLogic::ForgetCalibration()
 {
-  if (this->Internal->IsRunning)
-  {
-    this->Internal->Forgetting.push_back([this] { this->ForgetCalibration(); });
-  }
-  else if (this->Internal->Calibration)
-  {
-    this->Internal->ForgetCalibration();
-    this->Modified();
-    this->InvokeEvent(ResultsForgottenEvent);
-  }
+  this->Forget(
+    [internal = this->Internal.get()]
+    {
+      const bool was = internal->Calibration.has_value();
+      if (was)
+      {
+        internal->ForgetCalibration();
+      }
+      return was;
+    });
 }
 
 void vtkSlicerHandEyeCalibrationLogic::ForgetPhantomRegistration()
 {
-  if (this->Internal->IsRunning)
-  {
-    this->Internal->Forgetting.push_back([this] { this->ForgetPhantomRegistration(); });
-  }
-  else if (this->Internal->Phantom)
-  {
-    this->Internal->Phantom.reset();
-    this->Modified();
-    this->InvokeEvent(ResultsForgottenEvent);
-  }
+  this->Forget(
+    [internal = this->Internal.get()]
+    {
+      const bool was = internal->Phantom.has_value();
+      internal->Phantom.reset();
+      return was;
+    });
 }
 
 void vtkSlicerHandEyeCalibrationLogic::Internals::ForgetCalibration()

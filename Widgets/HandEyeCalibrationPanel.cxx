@@ -91,13 +91,11 @@ void HandEyeCalibrationPanel::Private::makePages()
   pages = { new handeye::DevicesPage(*workbench), new handeye::CameraPage(*workbench), new handeye::StylusPage(*workbench),
     new handeye::BallPage(*workbench), new handeye::CapturePage(*workbench), new handeye::ValidationPage(*workbench),
     new handeye::ComparisonPage(*workbench), new handeye::OverlayPage(*workbench), new handeye::FinishPage(*workbench) };
-  for (WizardPage* const each : pages)
+  for (WizardPage* const page : pages)
   {
-    new handeye::WheelGuard(*each);
-  }
-  for (WizardPage* page : pages)
-  {
-    ui.pages->addWidget(page);
+    new handeye::WheelGuard(*page);
+    page->hide();
+    ui.pagesLayout->addWidget(page);
   }
 }
 
@@ -273,11 +271,6 @@ void HandEyeCalibrationPanel::Private::refresh()
       missing.isEmpty() ? problem : missing);
   }
   currentPage().refresh();
-  // A stack of pages does not ask for the height that wrapped words need at this width.
-  if (const auto* layout = qobject_cast<QBoxLayout*>(currentPage().layout()))
-  {
-    ui.pages->setMinimumHeight(std::max(0, layout->minimumHeightForWidth(ui.scrollArea->viewport()->width())));
-  }
   const QString missing = workbench->missingFor(step), problem = workbench->problemOf(step);
   const bool isLast = step == WizardStep::Finish;
   ui.missingLabel->setText(missing);
@@ -355,11 +348,8 @@ void HandEyeCalibrationPanel::goTo(WizardStep step)
   d->steps->setCurrent(step);
   for (WizardPage* const page : d->pages)
   {
-    // A stack is as large as its largest page: a person could scroll into nothing on the others, or they would be cut off to the side.
-    const QSizePolicy::Policy policy = page == &d->currentPage() ? QSizePolicy::Preferred : QSizePolicy::Ignored;
-    page->setSizePolicy(policy, policy);
+    page->setVisible(page == &d->currentPage());  // a page that is hidden asks for no room
   }
-  d->ui.pages->setCurrentWidget(&d->currentPage());
   d->ui.scrollArea->verticalScrollBar()->setValue(0);
   d->workbench->enterStep(step);
   d->currentPage().enter();

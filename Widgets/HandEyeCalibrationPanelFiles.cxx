@@ -20,9 +20,12 @@ constexpr qint64 MostBytesOfAResult = 16 << 20;
 /// What a result file says that it is: "stylus", "calibration", "phantom"...; empty for other files.
 QString resultKind(const QString& path)
 {
+  constexpr int LongestEntry = 80;
   QFile file(path);
-  static const QRegularExpression schema(QStringLiteral(R"("schema"\s*:\s*"handeye-([a-z-]+)/)"));
-  return file.open(QIODevice::ReadOnly) ? schema.match(QString::fromUtf8(file.read(MostBytesOfAResult))).captured(1) : QString();
+  const QByteArray bytes = file.open(QIODevice::ReadOnly) ? file.read(MostBytesOfAResult) : QByteArray();
+  const int schema = bytes.indexOf("\"schema\"");  // the entry alone is decoded: this is the window's thread
+  static const QRegularExpression entry(QStringLiteral(R"(^"schema"\s*:\s*"handeye-([a-z-]+)/)"));
+  return schema < 0 ? QString() : entry.match(QString::fromUtf8(bytes.mid(schema, LongestEntry))).captured(1);
 }
 
 }  // namespace

@@ -97,11 +97,6 @@ void OverlayPage::enter()
   {
     workbench_.loadModel(HandEyeWorkbench::ownModel());
   }
-  const bool isOwn = workbench_.wantedModelPath() == HandEyeWorkbench::ownModel();
-  if (isOwn && ui_->landmarks->landmarks().isEmpty() && !HandEyeWorkbench::ownLandmarks().isEmpty())
-  {
-    ui_->landmarks->loadModelLandmarks(HandEyeWorkbench::ownLandmarks());
-  }
   playRoom();
 }
 

@@ -36,10 +36,11 @@ void writeComparisonReport(const std::filesystem::path& folder, const Comparison
 namespace report
 {
 
-/// The tables of it, for whoever pools comparisons.
 /// Place of each method: "1", "2 ~" where it is not told apart from the first, "apart" where it is not ranked with the others, empty
 /// where it gave nothing.
 [[nodiscard]] std::vector<std::string> ranksOf(const ComparisonResult& result);
+
+/// The tables of it, for whoever pools comparisons.
 [[nodiscard]] Table methodsTable(const ComparisonResult& result, const std::string& caption);
 [[nodiscard]] Table subsetsTable(const std::vector<MethodResult>& methods);
 [[nodiscard]] Table repeatabilityTable(const std::vector<MethodResult>& methods);

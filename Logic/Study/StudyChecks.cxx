@@ -234,8 +234,7 @@ std::string tiltWords(const StudyCameraResult& result)
   return text.empty() ? text
                       : text + ", over the " + std::to_string(repetitions) +
       " repetitions that have a branch and bound: a still board gives the rotation through the camera's own turning only, and the "
-      "factor is that of a "
-      "camera that is hardly turned.";
+      "factor is that of a camera that is hardly turned.";
 }
 
 std::optional<StudyCheck> checkFactor(const StudyCameraResult& result, const MethodResult& ours)

@@ -43,7 +43,8 @@ struct CompareCaptures
 /// Finds the ball in all recordings; those to calibrate from are looked at with the paper's segmentation, too. The validation's
 /// ball is found by the segmentation that the options name, for all methods. A board that looks the same after half a turn is
 /// given the numbering that agrees with the tracker.
-/// @throws io::FileError, std::invalid_argument as readCapture(), and where two of them share samples (see DistinctCaptures); std::runtime_error where Ctrl+C stopped it
+/// @throws io::FileError, std::invalid_argument as readCapture(), and where two of them share samples (see DistinctCaptures);
+///   std::runtime_error where Ctrl+C stopped it
 CompareCaptures readCompareCaptures(
   const CompareInputs& inputs, const CameraModel& camera, const BallOptions& ball, const CommandOutput& output);
 

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <tuple>
 
 using namespace handeye;
 using namespace handeye::study;
@@ -183,4 +184,75 @@ TEST(StudyChecks, TrackedBoard_IsNotOneOfThePapersMethods)
   ASSERT_EQ(beyond.rows.size(), 1U);
   EXPECT_EQ(beyond.rows[0][1], "lower mean than a board that is tracked itself");
   EXPECT_TRUE(has(beyond.caption, "none of its five methods"));
+}
+
+TEST(StudyChecks, Claim_IsJudgedByTheNumbers)
+{
+  StudyCameraResult result;
+  result.camera = studyCameras().back();
+  const auto add = [&](const char* name, ComparedMethod::Target target, double mean, double maximum)
+  {
+    for (ComparisonResult* comparison : { &result.comparison, &result.truth })
+    {
+      MethodResult method;
+      method.name = name;
+      method.target = target;
+      method.status = "ok";
+      method.errorPx = { 10, mean, 0, 0, maximum, mean };
+      comparison->methods.push_back(method);
+    }
+  };
+  add("ml", Ball, 1, 3);
+  add("sqpnp", Ball, 0.9, 3.5);
+  add("branch-and-bound", Board, 4, 9);
+  StudyClaim claim = judgeClaim(result);
+  EXPECT_TRUE(claim.hasLowestMean);
+  EXPECT_TRUE(claim.hasLowestMaximum);
+  EXPECT_EQ(claim.lowestMean, "sqpnp") << "of all methods, whatever they take";
+  EXPECT_EQ(claim.lowestMaximum, "ml");
+  EXPECT_DOUBLE_EQ(claim.branchAndBoundMean, 4);
+  EXPECT_DOUBLE_EQ(claim.branchAndBoundMaximum, 3);
+  add("tracked-board", Board, 0.5, 2);
+  claim = judgeClaim(result);
+  EXPECT_TRUE(claim.hasLowestMean) << "not one of the paper's five";
+  EXPECT_DOUBLE_EQ(claim.trackedBoardMean, 0.5);
+  EXPECT_EQ(claim.lowestMean, "tracked-board") << "but said";
+  add("park", Board, 1.5, 2.5);
+  claim = judgeClaim(result);
+  EXPECT_TRUE(claim.hasLowestMean);
+  EXPECT_FALSE(claim.hasLowestMaximum);
+  EXPECT_NE(claim.message.find("the maximum not"), std::string::npos) << claim.message;
+}
+
+TEST(StudyChecks, Checks_SayWhatDoesNotHoldAndWhy)
+{
+  StudyCameraResult result;
+  result.camera = studyCameras().back();
+  ASSERT_EQ(result.camera.name, "laparoscope");
+  result.floorPx = { 3, 0.9, 0, 0, 3.8, 1 };
+  result.comparison.methods = { methodWith("ml", Ball, { 1, 4, 1 }), methodWith("tsai", Board, { 2.5, 2, 3 }),
+    methodWith("branch-and-bound", Board, { 6, 4, 5 }), methodWith("tracked-board", Board, { 1, 1, 1 }) };
+  result.truth.methods = { methodWith("ml", Ball, { 0.2, 0.3, 0.1 }), methodWith("tsai", Board, { 0.9, 0.7, 1.5 }),
+    methodWith("branch-and-bound", Board, { 2, 2, 2 }), methodWith("tracked-board", Board, { 0.1, 0.1, 0.1 }) };
+  const std::vector<StudyCheck> checks = checkClaims(result);
+  ASSERT_EQ(checks.size(), 6U);
+  const auto& [mean, maximum, ownMean, ownMaximum] = std::tie(checks[0], checks[1], checks[2], checks[3]);
+  EXPECT_TRUE(mean.holds);
+  EXPECT_EQ(mean.reason, "");
+  EXPECT_EQ(mean.measured, "ml 2.00 px, tsai 2.50 px");
+  EXPECT_FALSE(maximum.holds);
+  EXPECT_EQ(maximum.measured, "ml 4.00 px, tsai 3.00 px");
+  EXPECT_NE(maximum.reason.find("one sample of 3. At that ball the calibration is off by 0.30 px itself; the rest of the 4.00 px"),
+    std::string::npos)
+    << maximum.reason;
+  EXPECT_NE(maximum.reason.find("without the validation's noise the largest errors are 0.30 px and 1.50 px"), std::string::npos)
+    << maximum.reason;
+  EXPECT_TRUE(ownMean.holds);
+  EXPECT_TRUE(ownMaximum.holds);
+  EXPECT_FALSE(checks[4].holds) << "the board that is tracked";
+  EXPECT_FALSE(checks[5].holds) << "2.5 times, not three";
+  EXPECT_EQ(checks[5].measured, "2.50 times; own errors 10.00 times");
+  EXPECT_NE(checks[5].reason.find("0.90 px of the 2.00 px are the tracker's noise"), std::string::npos) << checks[5].reason;
+  EXPECT_NE(judgeClaim(result).message.find("the mean below every method with a board that stands still, the maximum not"),
+    std::string::npos);
 }
