@@ -35,7 +35,7 @@ QString HandEyeWorkbench::missingForComparison() const
       return tr("Stored placements are those of another lens, stylus or ball: press Look again on the page %1.")
         .arg(task == capture_ ? tr("Capture") : tr("Validation"));
     }
-    if (task->isStale())
+    if (task->isStale() && !task->samples().isEmpty())
     {
       return tr("The samples are being looked at.");
     }

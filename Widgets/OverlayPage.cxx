@@ -97,6 +97,7 @@ void OverlayPage::enter()
   {
     workbench_.loadModel(HandEyeWorkbench::ownModel());
   }
+  offerOwnLandmarks();
   playRoom();
 }
 
@@ -127,7 +128,14 @@ void OverlayPage::takeModel()
     forgetTouched();
   }
   touchedModel_ = model;
-  if (model == HandEyeWorkbench::ownModel() && ui_->landmarks->landmarks().isEmpty())
+  offerOwnLandmarks();
+}
+
+/// With the program's own mesh, also while that is being read: a person can begin to touch.
+void OverlayPage::offerOwnLandmarks()
+{
+  const bool isOwn = workbench_.wantedModelPath() == HandEyeWorkbench::ownModel() && !HandEyeWorkbench::ownLandmarks().isEmpty();
+  if (isOwn && ui_->landmarks->landmarks().isEmpty())
   {
     ui_->landmarks->loadModelLandmarks(HandEyeWorkbench::ownLandmarks());
   }

@@ -50,6 +50,7 @@ private:
   void takeTip();
   void forgetTouched();
   void takeModel();
+  void offerOwnLandmarks();
   void showRegistration();
   void connectLook();
   void connectEyesAndVideo();

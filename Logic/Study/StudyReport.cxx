@@ -74,8 +74,8 @@ std::optional<report::Plot> errorByDistance(const StudyCameraResult& camera)
 std::optional<report::Plot> errorByTilt(const StudyCameraResult& camera)
 {
   report::Plot plot;
-  plot.title = "The calibrations' own error against the range of the board's directions, " + camera.camera.name + " (" +
-    tiltRepetitionWords(camera) + ")";
+  // No longer than a plot is wide.
+  plot.title = "Own error by the board's directions, " + camera.camera.name + " (" + tiltRepetitionWords(camera) + ")";
   plot.xLabel = "board seen from up to so far off its normal (degrees)";
   plot.yLabel = "mean error without the validation's noise (px)";
   plot.isLogarithmic = true;

@@ -73,7 +73,7 @@ std::string tiltRepetitionWords(const StudyCameraResult& camera)
   }
   const std::size_t all = repetitionsOf(camera.byTilt.front(), "ml"), searches = repetitionsOf(camera.byTilt.front(), Search);
   return std::to_string(all) + " repetitions" +
-    (searches > 0 && searches < all ? ", branch and bound the first " + std::to_string(searches) + " of them" : "");
+    (searches > 0 && searches < all ? ", " + std::to_string(searches) + " of branch and bound" : "");
 }
 
 report::Table conditionsTable(const StudyCameraResult& camera)

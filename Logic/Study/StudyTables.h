@@ -21,7 +21,7 @@ report::Table conditionsTable(const StudyCameraResult& camera);
 /// The errors by the range of the board's directions.
 report::Table tiltTable(const StudyCameraResult& camera);
 
-/// "20 repetitions, branch and bound the first 5 of them"
+/// "20 repetitions, 5 of branch and bound"
 std::string tiltRepetitionWords(const StudyCameraResult& camera);
 
 }  // namespace handeye::study

@@ -27,6 +27,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <memory>
 
 using handeye::HandEyeWorkbench;
@@ -53,6 +54,8 @@ private slots:
 private:
   vtkHandEyeOverlayPipeline* pipeline() { return panel_->videoView().pipeline(); }
   void feed(bool isPhantomSeen);
+  /// Frames until something holds: where drawing is slow, not every one is shown. @return whether it came to hold
+  bool feedUntil(const std::function<bool()>& holds);
   QImage seen();
   /// A panel with a stereo rig's calibration and both its videos.
   std::unique_ptr<HandEyeCalibrationPanel> stereoPanel(StereoServer& server);
@@ -106,6 +109,19 @@ void WizardOverlayTest::feed(bool isPhantomSeen)
   }
   panel_->workbench().live().take(frame_);
   QTest::qWait(60);
+}
+
+bool WizardOverlayTest::feedUntil(const std::function<bool()>& holds)
+{
+  for (int i = 0; i < 400; ++i)
+  {
+    if (holds())
+    {
+      return true;
+    }
+    feed(true);
+  }
+  return false;
 }
 
 QImage WizardOverlayTest::seen()
@@ -244,13 +260,12 @@ void WizardOverlayTest::recording_IsInTheSession_WithItsTransforms()
     driver.click(driver.onPage("recordButton"));
     QVERIFY(driver.visibleText("recordLabel").contains(QStringLiteral("Recording: 0:0")));
     QVERIFY(driver.onPage("recordButton")->text().contains(QStringLiteral("Stop")));
-    // Where drawing is slow, not every frame is shown.
-    for (int i = 0; i < 400 && picturesTold(driver) < 5; ++i)
-    {
-      frame_.image.timeSec += 0.05;
-      feed(true);
-    }
-    QVERIFY(picturesTold(driver) >= 5);
+    QVERIFY(feedUntil(
+      [&]
+      {
+        frame_.image.timeSec += 0.05;
+        return picturesTold(driver) >= 5;
+      }));
     cv::Mat shown;
     QVERIFY(panel_->videoView().readShown(shown));
     driver.click(driver.onPage("recordButton"));
@@ -403,10 +418,8 @@ void WizardOverlayTest::anotherMesh_DoesNotTakeTheRegistrationOfTheOneBefore()
   QVERIFY(!keep->isVisible());
   workbench.loadModel(other);
   QTRY_VERIFY_WITH_TIMEOUT(workbench.isRegisteredForAnotherModel(), PatienceMs);
-  feed(true);
-  QTRY_VERIFY_WITH_TIMEOUT(!pipeline()->GetModelVisible(), PatienceMs);
-  feed(true);
-  QTRY_VERIFY_WITH_TIMEOUT(driver.visibleText("overlayLabel").contains(QFileInfo(first).fileName()), 1000);
+  QVERIFY(feedUntil([&] { return driver.visibleText("overlayLabel").contains(QFileInfo(first).fileName()); }));
+  QVERIFY(!pipeline()->GetModelVisible());
   QVERIFY(workbench.problemOf(WizardStep::Overlay).contains(QStringLiteral("this mesh")));
   QVERIFY(keep->isVisible());
   QVERIFY2(panel_->findChild<handeye::LandmarkPanel*>()->landmarks().isEmpty(), "those of the mesh before do not place this one");
@@ -423,8 +436,7 @@ void WizardOverlayTest::anotherMesh_DoesNotTakeTheRegistrationOfTheOneBefore()
   driver.click(keep);
   QVERIFY(!workbench.isRegisteredForAnotherModel());
   QVERIFY(!keep->isVisible());
-  feed(true);
-  QTRY_VERIFY_WITH_TIMEOUT(pipeline()->GetModelVisible(), PatienceMs);
+  QVERIFY(feedUntil([this] { return pipeline()->GetModelVisible(); }));
 }
 
 HANDEYE_WIDGET_TEST_MAIN(WizardOverlayTest)
