@@ -53,6 +53,8 @@ public:
 
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
+  /// The legend's lines do not decide how high a plot is: a page would take that for all it needs.
+  bool hasHeightForWidth() const override { return false; }
 
 protected:
   void changeEvent(QEvent* event) override;
