@@ -18,6 +18,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
@@ -290,26 +291,29 @@ vtkSmartPointer<vtkPolyData> triangulatedWithNormals(vtkPolyData* model)
   return normals->GetOutput();
 }
 
-OverlayMesh prepareOverlayMesh(vtkPolyData* model, double longestEdgeMm)
+OverlayMesh prepareOverlayMesh(vtkPolyData* model)
 {
   OverlayMesh result;
   result.mesh = triangulatedWithNormals(model);
-  if (result.mesh->GetNumberOfPolys() == 0)
+  if (result.mesh->GetNumberOfPolys() > 0)
   {
-    return result;
-  }
-  EdgeDivider divider(result.mesh, longestEdgeMm);
-  bool divided = false;
-  while (divider.divide())
-  {
-    divided = true;
-  }
-  result.longestEdgeMm = divider.longestEdgeMm();
-  if (divided)
-  {
-    result.mesh = divider.mesh();
+    result.longestEdgeMm = EdgeDivider(result.mesh, std::numeric_limits<double>::infinity()).longestEdgeMm();
+    result.isClosed = isClosedSurface(result.mesh);
   }
   return result;
+}
+
+OverlayMesh dividedOverlayMesh(const OverlayMesh& mesh, double longestEdgeMm)
+{
+  if (mesh.longestEdgeMm <= longestEdgeMm)
+  {
+    return mesh;
+  }
+  EdgeDivider divider(mesh.mesh, longestEdgeMm);
+  while (divider.divide())
+  {
+  }
+  return { divider.mesh(), divider.longestEdgeMm(), mesh.isClosed };
 }
 
 }  // namespace handeye

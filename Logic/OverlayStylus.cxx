@@ -97,7 +97,7 @@ vtkSmartPointer<vtkPolyData> makeStylusBody(const StylusShape& shape)
     parts->AddInputData(rod(shape.shaftRadiusMm, -shape.shaftLengthMm, 0));
   }
   parts->Update();
-  return prepareOverlayMesh(parts->GetOutput(), LongestEdgeMm).mesh;
+  return dividedOverlayMesh(prepareOverlayMesh(parts->GetOutput()), LongestEdgeMm).mesh;
 }
 
 vtkSmartPointer<vtkPolyData> makeStylusRay(const StylusShape& shape)
@@ -107,13 +107,13 @@ vtkSmartPointer<vtkPolyData> makeStylusRay(const StylusShape& shape)
   {
     return vtkSmartPointer<vtkPolyData>::New();
   }
-  return prepareOverlayMesh(rod(RayRadiusMm, shape.ballRadiusMm, shape.rayLengthMm), LongestEdgeMm).mesh;
+  return dividedOverlayMesh(prepareOverlayMesh(rod(RayRadiusMm, shape.ballRadiusMm, shape.rayLengthMm)), LongestEdgeMm).mesh;
 }
 
 vtkSmartPointer<vtkPolyData> makeStylusTip(const StylusShape& shape)
 {
   shape.check();
-  return prepareOverlayMesh(ball(TipRadiusMm), LongestEdgeMm).mesh;
+  return dividedOverlayMesh(prepareOverlayMesh(ball(TipRadiusMm)), LongestEdgeMm).mesh;
 }
 
 }  // namespace handeye

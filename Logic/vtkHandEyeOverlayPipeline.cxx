@@ -85,9 +85,19 @@ void vtkHandEyeOverlayPipeline::SetModel(vtkPolyData* model)
   if (this->Internal->Model != model)
   {
     this->Internal->Model = model;
+    this->Internal->SetBaseMesh({});
     this->Internal->State.Mesh = nullptr;
     this->Internal->LongestEdgeMm = 0;
     this->Modified();
+  }
+}
+
+void vtkHandEyeOverlayPipeline::SetPreparedModel(const handeye::OverlayMesh& model)
+{
+  if (this->Internal->Model != model.mesh)
+  {
+    this->SetModel(model.mesh);
+    this->Internal->SetBaseMesh(model);
   }
 }
 

@@ -15,6 +15,11 @@
 #include <optional>
 #include <string>
 
+namespace handeye
+{
+struct OverlayMesh;
+}
+
 class vtkHandEyeOverlayScene;
 class vtkImageData;
 class vtkMatrix4x4;
@@ -59,6 +64,8 @@ public:
 
   /// The mesh, mm; shared, not copied, not changed. Null takes the model away. @sa handeye::readMesh()
   void SetModel(vtkPolyData* model);
+  /// The same, with what else has to be made before a mesh's first picture made beside, in another thread.
+  void SetPreparedModel(const handeye::OverlayMesh& model);
   vtkPolyData* GetModel();
 
   /// Where the mesh is: p_Camera = modelToCamera * p_Model, mm, affine; copied. The identity until set.

@@ -43,6 +43,9 @@ public:
   const vtkHandEyeOverlayState& Update();
   void Render(int width, int height, cv::Mat& bgr);
 
+  /// What the model is drawn from, undivided; without a mesh it is made of the model when it is needed.
+  void SetBaseMesh(const handeye::OverlayMesh& mesh);
+
   /// Covariance (px^2) of where the middle of the model is seen; nothing if it is not known.
   std::optional<Eigen::Matrix2d> ErrorCovariancePx() const;
 
@@ -58,6 +61,7 @@ private:
   /// The lens of the picture as it is shown: none where it is straightened.
   handeye::CameraModel ShownCamera() const;
   double PreparedDistanceMm() const;
+  vtkMTimeType ModelTime() const;
 
   vtkMTimeType MeshTime = 0;
   bool ErrorIsStraight = false;                   ///< the error's field is that of a straightened picture

@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace
 {
@@ -104,21 +103,29 @@ double vtkHandEyeOverlayPipeline::Internals::PreparedDistanceMm() const
                : this->NearestDistanceMm * std::exp2(std::floor(doublings));
 }
 
+vtkMTimeType vtkHandEyeOverlayPipeline::Internals::ModelTime() const
+{
+  return std::max(this->Model->GetMTime(), this->Model->GetPoints() ? this->Model->GetPoints()->GetMTime() : 0);
+}
+
+void vtkHandEyeOverlayPipeline::Internals::SetBaseMesh(const handeye::OverlayMesh& mesh)
+{
+  this->BaseMesh = mesh;
+  this->Meshes.clear();
+  this->MeshDistanceMm = 0;
+  this->State.MeshIsClosed = mesh.isClosed;
+  this->MeshTime = this->Model ? this->ModelTime() : 0;
+}
+
 void vtkHandEyeOverlayPipeline::Internals::UpdateMesh()
 {
   if (!this->Model || !this->State.Camera)
   {
     return;
   }
-  const vtkMTimeType modelTime =
-    std::max(this->Model->GetMTime(), this->Model->GetPoints() ? this->Model->GetPoints()->GetMTime() : 0);
-  if (!this->State.Mesh || modelTime != this->MeshTime)
+  if (!this->BaseMesh.mesh || this->ModelTime() != this->MeshTime)
   {
-    this->Meshes.clear();
-    this->MeshDistanceMm = 0;
-    this->BaseMesh = handeye::prepareOverlayMesh(this->Model, std::numeric_limits<double>::infinity());
-    this->State.MeshIsClosed = handeye::isClosedSurface(this->BaseMesh.mesh);
-    this->MeshTime = modelTime;
+    this->SetBaseMesh(handeye::prepareOverlayMesh(this->Model));
   }
   this->MeshDistanceMm = this->PreparedDistanceMm();
   const double limitMm = handeye::longestEdgeMm(this->State.Lens, this->MeshDistanceMm, EdgeTolerancePx);
@@ -131,7 +138,7 @@ void vtkHandEyeOverlayPipeline::Internals::UpdateMesh()
   const auto [place, isNew] = this->Meshes.try_emplace(limitMm);
   if (isNew)
   {
-    place->second = handeye::prepareOverlayMesh(this->BaseMesh.mesh, limitMm);
+    place->second = handeye::dividedOverlayMesh(this->BaseMesh, limitMm);
   }
   this->State.Mesh = place->second.mesh;
   this->LongestEdgeMm = place->second.longestEdgeMm;

@@ -13,6 +13,7 @@
 #include "LensTask.h"
 #include "LivePipeline.h"
 #include "Look.h"
+#include "OverlayMesh.h"
 #include "OverlayPose.h"
 #include "PivotTask.h"
 #include "TouchTask.h"
@@ -26,7 +27,6 @@
 #include <QString>
 #include <QTimer>
 #include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 
 #include <memory>
 #include <optional>
@@ -170,7 +170,9 @@ public:
 
   // Overlay
   void loadModel(const QString& path);
-  vtkPolyData* model() const { return model_; }
+  vtkPolyData* model() const { return model_.mesh; }
+  /// The same, ready to be drawn.
+  const OverlayMesh& overlayMesh() const { return model_; }
   QString modelPath() const { return modelPath_; }
   /// Of the mesh that was asked for last, loaded or not; empty: none was.
   QString wantedModelPath() const { return wantedModelPath_; }
@@ -293,7 +295,7 @@ private:
   std::optional<ValidationStepResult> validation_;
   double nearestMm_ = 160, furthestMm_ = 420, enoughPx_ = 1.5;
   bool isCalibrationAsked_ = false, isCalibrating_ = false, isCalibrationStale_ = false;
-  vtkSmartPointer<vtkPolyData> model_;
+  OverlayMesh model_;
   QString modelPath_, wantedModelPath_, registeredModelPath_;
   std::optional<Eigen::Isometry3d> modelToPhantom_;
   std::optional<LandmarkRegistrationResult> registration_;

@@ -246,7 +246,7 @@ void HandEyeWorkbench::loadModel(const QString& path)
   beside(WizardStep::Overlay,
     [this, path]
     {
-      const vtkSmartPointer<vtkPolyData> mesh = readMesh(path.toStdString());
+      const OverlayMesh mesh = prepareOverlayMesh(readMesh(path.toStdString()));
       tell(
         [this, mesh, path]
         {

@@ -60,7 +60,7 @@ void HandEyeWorkbench::openSession(const QString& folder)
   calibration_.reset();
   isCalibrationLoaded_ = false;
   validation_.reset();
-  model_ = nullptr;
+  model_ = {};
   modelPath_.clear();
   wantedModelPath_.clear();
   registeredModelPath_.clear();

@@ -56,8 +56,8 @@ OverlayPresenter::OverlayPresenter(HandEyeWorkbench& workbench, VideoView& view,
   connect(&workbench, &HandEyeWorkbench::modelChanged, this,
     [this]
     {
-      view_.pipeline()->SetModel(workbench_.model());
-      view_.rightPipeline()->SetModel(workbench_.model());
+      view_.pipeline()->SetPreparedModel(workbench_.overlayMesh());
+      view_.rightPipeline()->SetPreparedModel(workbench_.overlayMesh());
       view_.requestRender();
     });
   // What was seen belongs to the devices, the calibration and the registration of its time.

@@ -39,6 +39,10 @@ constexpr double RadiusBesideFingerPx = 12;
 /// them. Of outlines that scatter more something else may be the cause.
 constexpr double SmallRadiusPx = 12;
 constexpr double SigmaOfSmallPx = 0.15;
+/// What hides a part has its edge between the ends of what is seen, or a little beyond: there are more mixtures there.
+constexpr double Whole = 0.9;
+constexpr int RimOfHiddenPx = 2;
+constexpr int FewestPixels = 12;
 /// Along a line from the centre to a seen point of the outline the colour is looked at in these places, as shares of the way.
 constexpr double AlongRadius[] = { 0.5, 0.6, 0.7, 0.8, 0.9 };
 /// Of larger balls not every pixel is looked at, but about this many.
@@ -68,9 +72,24 @@ double saturation(const cv::Mat& image, const cv::Point& pixel)
                                  : of(image.ptr<uchar>(pixel.y) + pixel.x * image.channels());
 }
 
-/// @param isWithoutRim the pixels on the edges do not count
+/// Takes the outermost pixels away, again and again, as long as enough is left.
+void peel(cv::Mat& disc, int times)
+{
+  for (int i = 0; i < times; ++i)
+  {
+    cv::Mat peeled;
+    cv::erode(disc, peeled, {}, { -1, -1 }, 1, cv::BORDER_CONSTANT, cv::Scalar::all(0));
+    if (i > 0 && cv::countNonZero(peeled) < FewestPixels)
+    {
+      return;
+    }
+    disc = peeled;
+  }
+}
+
+/// @param rimPx so many pixels along the edges do not count
 Inside lookInside(
-  const cv::Mat& image, const BallColorLevels& levels, int level, const std::vector<cv::Point>& polygon, bool isWithoutRim)
+  const cv::Mat& image, const BallColorLevels& levels, int level, const std::vector<cv::Point>& polygon, int rimPx)
 {
   const cv::Rect area = cv::boundingRect(polygon) & levels.window();
   Inside inside;
@@ -81,9 +100,9 @@ Inside lookInside(
   cv::Mat disc = cv::Mat::zeros(area.size(), CV_8U);
   cv::fillPoly(disc, std::vector<std::vector<cv::Point>>{ polygon }, 255, cv::LINE_8, 0, -area.tl());
   const int step = std::max(1, int(std::sqrt(double(area.area()) / PixelsLookedAt)));
-  if (isWithoutRim && step == 1)
+  if (step == 1)
   {
-    cv::erode(disc, disc, {}, { -1, -1 }, 1, cv::BORDER_CONSTANT, cv::Scalar::all(0));
+    peel(disc, rimPx);
   }
   double total = 0, highlights = 0;
   std::vector<double> saturations;
@@ -190,7 +209,8 @@ BallEvidence judgeOutline(const OutlineFit& fit, const cv::Mat& image, const Bal
   evidence.radiusPx = std::sqrt(cv::contourArea(whole) / Pi);
   const Eigen::Vector2d center_Image = camera.project(fit.cone.axis_Camera).point_Image;
   const bool isSmallAndSharp = evidence.radiusPx < SmallRadiusPx && fit.sigmaPx <= SigmaOfSmallPx;
-  const Inside inside = lookInside(image, levels, level, seen, isSmallAndSharp);
+  const int rimPx = !isSmallAndSharp ? 0 : fit.visibleShare < Whole ? RimOfHiddenPx : 1;
+  const Inside inside = lookInside(image, levels, level, seen, rimPx);
   const double filled = std::min(1.0, inside.colored + inside.highlights);
   const double rim = rimFill(fit, levels, level, center_Image);
   const bool isBesideFinger = rim >= RimBesideFinger && filled >= LeastBehindFinger && fit.sigmaPx <= SigmaBesideFingerPx &&

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace handeye
@@ -27,6 +28,7 @@ constexpr double BlursThatCount = 3;
 constexpr std::size_t FewestNormals = 8;
 constexpr int Rounds = 5;
 constexpr int RoundsOfHidingEdges = 3;
+constexpr int RoundsOfSettling = 3;
 /// Squares of differences in units of the noise' variance: of normals that have what the model says, all across and near the edge, and
 /// of a pixel that counts.
 constexpr float LargestOfNormal = 2;
@@ -43,7 +45,7 @@ constexpr double CleanShare = 0.3;
 /// Of the change of the light between the nearer and the further half of a stretch.
 constexpr double LargestChange = 3;
 /// Twice as much where an outline has only so many normals: there are few independent ones among them.
-constexpr double FewNormals = 50;
+constexpr double FewNormals = 100;
 /// A larger scatter (of full light's encoded value) is not the noise of a camera alone.
 constexpr float LargestNoise = 4 / 255.0F;
 /// The light is not even where fewer normals than this share of those with a right edge have what the model says.
@@ -93,6 +95,7 @@ public:
   EvenLightFitter(const LinearLightImage& light, const SphereCone::Outline& outline, const EvenLightStart& start)
     : outline_(outline)
     , start_(start)
+    , startStep_(start.step)
     , startBlurPx_(std::max(start.blurPx, EdgeProfiles::SharpestPx))
     , model_(outline, start.radiusPx, startBlurPx_)
     , isTrusted_(trusted(outline, start, model_.spacingPx()))
@@ -132,18 +135,48 @@ private:
   void collect()
   {
     const bool isWhole = double(start_.support.size()) >= Whole * double(isTrusted_.size());
-    model_.collect(pixels_, isWhole || !model_.edges().empty() ? model_.deepestPx() : model_.shallowPx());
+    depthPx_ = isWhole || !model_.edges().empty() ? model_.deepestPx() : model_.shallowPx();
+    model_.collect(pixels_, depthPx_);
   }
 
-  /// A round without a step, as if nothing were hidden.
+  /// A round without a step, as if nothing were hidden. Where the start is not good enough to judge by, it is first made better on
+  /// the trusted normals.
   bool look()
   {
-    model_.place(start_.step, startBlurPx_, {});
+    return lookOnce() || (settle() && lookOnce());
+  }
+
+  bool lookOnce()
+  {
+    model_.place(startStep_, startBlurPx_, {});
     isEven_ = isTrusted_;
     noise_ = LargestNoise * LargestNoise;
     collect();
     model_.average(isEven_);
     return isEven() && judge();
+  }
+
+  bool settle()
+  {
+    if (std::exchange(isSettled_, true))
+    {
+      return false;
+    }
+    model_.place(startStep_, startBlurPx_, {});
+    isEdge_ = isTrusted_;
+    noise_ = LargestNoise * LargestNoise;
+    for (int round = 0; round < RoundsOfSettling; ++round)
+    {
+      collect();
+      model_.average(isTrusted_);
+      if (!move(true))
+      {
+        return false;
+      }
+    }
+    startStep_ = model_.step();
+    startBlurPx_ = model_.blurPx();
+    return movedPx() <= LargestMovePx;
   }
 
   bool fitWith(const std::vector<HidingEdge>& edges)
@@ -153,7 +186,7 @@ private:
       return false;
     }
     // The hiding edges alone first, in the light that is known so far: they are good to a px only.
-    model_.place(start_.step, startBlurPx_, edges);
+    model_.place(startStep_, startBlurPx_, edges);
     for (int round = 0; round < RoundsOfHidingEdges && !edges.empty(); ++round)
     {
       if (!move(false))
@@ -213,7 +246,7 @@ private:
     for (const OutlinePixel& pixel : pixels_)
     {
       const PixelDifference difference = model_.differenceOf(pixel);
-      if (difference.isCounted)
+      if (difference.isCounted && difference.inside * model_.blurPx() <= depthPx_)
       {
         everywhere.add(pixel.index, difference.square());
         if (difference.isWithin(BlursOfEdge))
@@ -299,13 +332,16 @@ private:
 
   const SphereCone::Outline& outline_;
   const EvenLightStart& start_;
+  Eigen::Vector3d startStep_;
   double startBlurPx_;
+  bool isSettled_ = false;  ///< the start was made better than it came
   EvenLightModel model_;
   std::vector<char> isTrusted_;  ///< normals that are even for certain, if any are
   std::vector<char> isEven_;     ///< the light across the normal is the model's
   std::vector<char> isEdge_;     ///< near the edge it is
   std::vector<OutlinePixel> pixels_;
-  float noise_ = 0;  ///< variance of the encoded value
+  double depthPx_ = 0;  ///< deeper inside it is not known what may be in front of the ball
+  float noise_ = 0;     ///< variance of the encoded value
 };
 
 }  // namespace

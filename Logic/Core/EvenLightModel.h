@@ -59,6 +59,7 @@ public:
   /// Back to a place.
   void place(const Eigen::Vector3d& step, double blurPx, const std::vector<HidingEdge>& edges);
   const Eigen::Vector3d& step() const { return step_; }
+  double blurPx() const { return blurPx_; }
   const std::vector<HidingEdge>& edges() const { return edges_; }
   int parameterCount() const { return OfOutline + OfEdge * int(edges_.size()); }
   void move(const Vector& by);

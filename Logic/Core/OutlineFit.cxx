@@ -62,7 +62,7 @@ constexpr double ShadingToWave = 0.65;
 constexpr double LeastWavePx = 0.025;
 /// Light whose change on either side may move more than two thirds of the edges by more than this share of their blur is not even: what
 /// hides a part of a small ball is within that light.
-constexpr double LargestEvenShading = 0.12;
+constexpr double LargestEvenShading = 0.16;
 
 double tukey(double residual, double sigma)
 {

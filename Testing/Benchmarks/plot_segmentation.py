@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: HandEyeCalibration contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws what study_segmentation measured: python3 plot_segmentation.py STUDY.csv PICTURE.png (needs matplotlib)."""
+"""Draws what study_segmentation measured, and prints it as a table: python3 plot_segmentation.py STUDY.csv PICTURE.png (needs matplotlib)."""
 import csv
+import statistics
 import sys
 
 import matplotlib
@@ -46,10 +47,36 @@ def draw_lens(axes, rows, hidden_shares, noises):
                          linestyle="-" if noise == noises[0] else "--")
 
 
+def median_and_largest(rows, key, digits):
+    values = [row[key] for row in rows]
+    return f"{statistics.median(values):.{digits}f} ({max(values):.{digits}f})"
+
+
+def print_table(rows):
+    """A line for each radius and share that is hidden: medians over the other conditions, in brackets the largest."""
+    print("| hidden | radius | found | bias px | spread px | bound px | spread over bound |\n|---|---|---|---|---|---|---|")
+    for hidden in sorted({row["hidden_share"] for row in rows}):
+        for radius in sorted({row["radius_px"] for row in rows}):
+            some = [row for row in rows if row["hidden_share"] == hidden and row["radius_px"] == radius]
+            if not some:
+                continue
+            found = 100 * sum(row["found"] for row in some) / sum(row["tried"] for row in some)
+            spread, bound = (statistics.median(row[key] for row in some) for key in ("spread_px", "bound_px"))
+            print(f"| {100 * hidden:g} % | {radius:g} | {found:.4g} % | {median_and_largest(some, 'bias_px', 4)} | {spread:.4f} | "
+                  f"{bound:.4f} | {median_and_largest(some, 'ratio', 2)} |")
+    print("\n| hidden | bias below the mark | spread within the mark |\n|---|---|---|")
+    for hidden in sorted({row["hidden_share"] for row in rows}):
+        some = [row for row in rows if row["hidden_share"] == hidden]
+        bias = sum(row["bias_px"] < LARGEST_BIAS_PX for row in some)
+        spread = sum(row["ratio"] <= LARGEST_RATIO for row in some)
+        print(f"| {100 * hidden:g} % | {bias} of {len(some)} | {spread} of {len(some)} |")
+
+
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     rows = read(sys.argv[1])
+    print_table(rows)
     lenses = list(dict.fromkeys(row["lens"] for row in rows))
     hidden_shares = sorted({row["hidden_share"] for row in rows})
     noises = sorted({row["noise"] for row in rows})
@@ -65,6 +92,7 @@ def main():
             axis.set_xscale("log")
             axis.set_yscale("log")
             axis.grid(True, which="both", linewidth=0.3)
+        axes[2].set_yscale("linear")
         axes[2].set_xlabel("apparent radius (px)")
     grid[0, 0].set_ylabel("bias (px; dotted: the mark)")
     grid[1, 0].set_ylabel("spread (px; lines: the bound)")

@@ -114,27 +114,42 @@ Place makePlace(const StudyCell& cell, const StudyEffort& effort, int index)
   return place;
 }
 
-/// The light on the sensor, with the ball where it is asked for and the hiding edge where it is.
-cv::Mat lightOn(const Place& place, const StudyCell& cell, const Eigen::Vector3d& center_Camera)
+/// A sensor with `parts` x `parts` pixels in the place of each.
+CameraModel dividedPixels(const CameraModel& camera, int parts)
+{
+  Eigen::Matrix3d cameraMatrix = parts * camera.cameraMatrix();
+  cameraMatrix(0, 2) += (parts - 1) / 2.0;
+  cameraMatrix(1, 2) += (parts - 1) / 2.0;
+  cameraMatrix(2, 2) = 1;
+  return CameraModel(parts * camera.width(), parts * camera.height(), cameraMatrix, camera.distortionCoefficients());
+}
+
+/// The light on the sensor, with the ball where it is asked for and the hiding edge where it is: blurred as by optics, then summed up
+/// over each pixel.
+cv::Mat lightOn(const Place& place, const StudyCell& cell, const StudyEffort& effort, const Eigen::Vector3d& center_Camera)
 {
   RenderedBall ball = place.ball;
   ball.center_Camera = center_Camera;
-  cv::Mat light = SphereScene(place.camera).add(ball).light();
+  const int parts = effort.parts;
+  cv::Mat light = SphereScene(dividedPixels(place.camera, parts)).add(ball).light();
   if (cell.hiddenShare > 0)
   {
+    const Eigen::Vector2d shift = Eigen::Vector2d::Constant((parts - 1) / 2.0);
     for (int row = 0; row < light.rows; ++row)
     {
       for (int column = 0; column < light.cols; ++column)
       {
-        const double inside = Eigen::Vector2d(column, row).dot(place.hidden_Direction) - place.hiddenFrom;
+        const double inside = (Eigen::Vector2d(column, row) - shift).dot(place.hidden_Direction) - parts * place.hiddenFrom;
         const float share = float(std::clamp(inside + 0.5, 0.0, 1.0));
         Light& pixel = light.at<Light>(row, column);
         pixel += share * (GloveBlue - pixel);
       }
     }
   }
-  cv::GaussianBlur(light, light, {}, BlurPx, BlurPx, cv::BORDER_REPLICATE);
-  return light;
+  cv::GaussianBlur(light, light, {}, parts * BlurPx, parts * BlurPx, cv::BORDER_REPLICATE);
+  cv::Mat ofPixels;
+  cv::resize(light, ofPixels, { place.camera.width(), place.camera.height() }, 0, 0, cv::INTER_AREA);
+  return ofPixels;
 }
 
 /// Grey levels of the noise-free picture, not rounded.
@@ -150,7 +165,7 @@ cv::Mat greyLevels(const cv::Mat& light)
   return levels;
 }
 
-double boundOf(const Place& place, const StudyCell& cell)
+double boundOf(const Place& place, const StudyCell& cell, const StudyEffort& effort)
 {
   Eigen::Matrix<double, 2, 3> jacobian;  // px/mm
   (void)place.camera.project(place.ball.center_Camera, &jacobian);
@@ -163,8 +178,8 @@ double boundOf(const Place& place, const StudyCell& cell)
   for (int i = 0; i < 3; ++i)
   {
     const Eigen::Vector3d step_Camera = StepPx * steps_Camera.col(i);
-    const cv::Mat more = greyLevels(lightOn(place, cell, place.ball.center_Camera + step_Camera));
-    const cv::Mat less = greyLevels(lightOn(place, cell, place.ball.center_Camera - step_Camera));
+    const cv::Mat more = greyLevels(lightOn(place, cell, effort, place.ball.center_Camera + step_Camera));
+    const cv::Mat less = greyLevels(lightOn(place, cell, effort, place.ball.center_Camera - step_Camera));
     derivatives.emplace_back((more - less) / (2 * StepPx));
   }
   Eigen::Matrix3d information;
@@ -249,9 +264,9 @@ StudyResult runStudyCell(const StudyCell& cell, const StudyEffort& effort, const
     const Place place = makePlace(cell, effort, index);
     if (index == 0)
     {
-      result.boundPx = boundOf(place, cell);
+      result.boundPx = boundOf(place, cell, effort);
     }
-    const cv::Mat light = lightOn(place, cell, place.ball.center_Camera);
+    const cv::Mat light = lightOn(place, cell, effort, place.ball.center_Camera);
     std::vector<Eigen::Vector2d> ofPlace;
     for (int draw = 0; draw < effort.draws; ++draw)
     {
@@ -277,7 +292,7 @@ StudyResult runStudyCell(const StudyCell& cell, const StudyEffort& effort, const
 
 double studyBound(const StudyCell& cell, const StudyEffort& effort)
 {
-  return boundOf(makePlace(cell, effort, 0), cell);
+  return boundOf(makePlace(cell, effort, 0), cell, effort);
 }
 
 }  // namespace handeye::test

@@ -28,6 +28,9 @@ struct StudyEffort
   int places = 12;        ///< of the ball against the grid of pixels, about the axis and within a pixel
   int draws = 6;          ///< of noise at each place
   bool isShaded = false;  ///< a lamp above; otherwise the ball has one colour
+  /// Each pixel is divided into so many in each direction before the light is blurred, as by optics, and summed up over the pixel. With 1
+  /// the pixels themselves are blurred: an edge is then a broken line from pixel to pixel, which no camera's is.
+  int parts = 4;
 };
 
 /// What comes out of a cell. With e_pd the error of draw d at place p (px):
