@@ -6,14 +6,19 @@
 #include "EigenVtk.h"
 #include "MeshReader.h"
 #include "OffscreenRendering.h"
+#include "OverlayLook.h"
 #include "vtkHandEyeOverlayPipeline.h"
 
+#include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
 #include <vtkMatrix4x4.h>
+#include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkSphereSource.h>
 
 #include <string>
+#include <vector>
 
 /// A small operating field for pictures of looks: 320 x 240, a vertebra, a stylus.
 namespace handeye::test
@@ -22,6 +27,10 @@ namespace handeye::test
 using Pipeline = vtkSmartPointer<vtkHandEyeOverlayPipeline>;
 
 constexpr int FieldWidth = 320, FieldHeight = 240;
+
+/// Of a picture against its baseline. Averaged differences of edge pixels: another Mesa moves shading by a grey level or two, a fault
+/// moves hundreds of pixels.
+constexpr double Threshold = 25;
 
 inline CameraModel fieldCamera(const std::vector<double>& distortion = { 0.041, -0.112, -0.0007, 0.0011, 0.02 })
 {
@@ -65,10 +74,15 @@ inline Eigen::Isometry3d fieldModelToCamera()
   return pose({ 1, 0.35, -0.25 }, 2.1, { 4, -2, 125 });
 }
 
-inline Pipeline fieldPipeline(const CameraModel& camera = fieldCamera())
+inline Pipeline newPipeline()
 {
   registerOffscreenRendering();
-  Pipeline pipeline = Pipeline::New();
+  return Pipeline::New();
+}
+
+inline Pipeline fieldPipeline(const CameraModel& camera = fieldCamera())
+{
+  Pipeline pipeline = newPipeline();
   pipeline->SetCameraModel(camera);
   pipeline->SetVideoFrame(fieldVideo());
   pipeline->SetModel(readMesh(std::string(HANDEYE_RESOURCES_DIR) + "/Meshes/Vertebra.ply"));
@@ -90,6 +104,62 @@ inline cv::Mat renderedMask(const Pipeline& pipeline)
   cv::cvtColor(rendered(pipeline), mask, cv::COLOR_BGR2GRAY);
   pipeline->SetMaskMode(false);
   return mask;
+}
+
+inline cv::Mat pictureOf(const OverlayLook& look, const CameraModel& camera = fieldCamera())
+{
+  const Pipeline pipeline = fieldPipeline(camera);
+  pipeline->SetLook(look);
+  return rendered(pipeline);
+}
+
+/// A ball in the picture's middle.
+inline Pipeline ballPipeline(double radiusMm, double distanceMm)
+{
+  const Pipeline pipeline = fieldPipeline();
+  vtkNew<vtkSphereSource> ball;
+  ball->SetRadius(radiusMm);
+  ball->SetThetaResolution(90);
+  ball->SetPhiResolution(90);
+  ball->Update();
+  pipeline->SetModel(ball->GetOutput());
+  pipeline->SetModelToCamera(toVtk(pose({ 0, 0, 1 }, 0, { 0, 0, distanceMm })));
+  return pipeline;
+}
+
+inline StylusShape smallStylus()
+{
+  StylusShape shape;
+  shape.ballRadiusMm = 5;
+  shape.shaftRadiusMm = 2.5;
+  shape.shaftLengthMm = 80;
+  shape.rayLengthMm = 60;
+  return shape;
+}
+
+/// The stylus with its tip here, its shaft towards the camera and the upper right.
+inline void holdStylus(const Pipeline& pipeline, const Eigen::Vector3d& tip_Camera)
+{
+  pipeline->SetStylusShape(smallStylus());
+  pipeline->SetStylusTipToCamera(toVtk(pose({ 1, 1, 0 }, 0.7, tip_Camera)));
+}
+
+/// Of a calibration that is uncertain by a shift along the picture alone.
+inline Eigen::Matrix<double, 6, 6> shiftCovariance(double sigmaXMm, double sigmaYMm)
+{
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  covariance(3, 3) = sigmaXMm * sigmaXMm;
+  covariance(4, 4) = sigmaYMm * sigmaYMm;
+  return covariance;
+}
+
+/// Of two pictures of the same size, in grey levels.
+inline cv::Mat difference(const cv::Mat& a, const cv::Mat& b)
+{
+  cv::Mat result;
+  cv::absdiff(a, b, result);
+  cv::cvtColor(result, result, cv::COLOR_BGR2GRAY);
+  return result;
 }
 
 }  // namespace handeye::test

@@ -20,8 +20,6 @@ using namespace handeye::test;
 using Layout = vtkHandEyeStereoOverlay::Layout;
 using Stereo = vtkSmartPointer<vtkHandEyeStereoOverlay>;
 
-constexpr double Threshold = 25;  // as for the looks of one eye
-
 handeye::CameraModel rightCamera()
 {
   Eigen::Matrix3d matrix;
