@@ -109,3 +109,26 @@ TEST(OverlayMesh, Edges_AreShortEnoughForTheNearestDistance)
   pipeline->SetCameraModel(handeye::CameraModel(720, 576, laparoscope().cameraMatrix(), {}));
   EXPECT_NEAR(pipeline->GetEdgeErrorPx(), 0, 1e-6);
 }
+
+TEST(OverlayMesh, MadeReadyBeside_GivesTheSamePicture)
+{
+  const Pipeline pipeline = ringPipeline(laparoscope(), scene(720, 576));
+  const cv::Mat before = rendered(pipeline);
+  const handeye::OverlayMesh ready = handeye::prepareOverlayMesh(pipeline->GetModel());
+  EXPECT_TRUE(ready.isClosed);
+  const vtkIdType triangles = ready.mesh->GetNumberOfPolys();
+  const Pipeline other = ringPipeline(laparoscope(), scene(720, 576));
+  other->SetPreparedModel(ready);
+  EXPECT_EQ(other->GetModel(), ready.mesh);
+  EXPECT_EQ(cv::norm(rendered(other), before, cv::NORM_INF), 0);
+  EXPECT_LE(other->GetEdgeErrorPx(), 0.05 + 1e-9) << "it is still divided for the lens";
+  EXPECT_EQ(ready.mesh->GetNumberOfPolys(), triangles) << "and not changed";
+  // A mesh that changes afterwards is made ready anew.
+  vtkNew<vtkSphereSource> ball;
+  ball->SetRadius(20);
+  ball->Update();
+  ready.mesh->DeepCopy(ball->GetOutput());
+  EXPECT_GT(cv::norm(rendered(other), before, cv::NORM_INF), 50);
+  other->SetPreparedModel({});
+  EXPECT_EQ(cv::countNonZero(renderedMask(other)), 0);
+}
