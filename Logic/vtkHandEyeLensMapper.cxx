@@ -9,6 +9,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLCamera.h>
 #include <vtkOpenGLHelper.h>
+#include <vtkOpenGLRenderUtilities.h>  // OpenGL's names, by GLEW or (VTK 9.4) GLAD
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
 #include <vtkOpenGLTexture.h>
@@ -16,7 +17,6 @@
 #include <vtkShader.h>
 #include <vtkShaderProgram.h>
 #include <vtkTextureObject.h>
-#include <vtk_glew.h>
 
 #include <string>
 

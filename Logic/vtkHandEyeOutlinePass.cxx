@@ -8,6 +8,7 @@
 #include <vtkOpaquePass.h>
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLQuadHelper.h>
+#include <vtkOpenGLRenderUtilities.h>  // OpenGL's names, by GLEW or (VTK 9.4) GLAD
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLShaderCache.h>
 #include <vtkOpenGLState.h>
@@ -20,7 +21,6 @@
 #include <vtkTextureObject.h>
 #include <vtkTranslucentPass.h>
 #include <vtkVolumetricPass.h>
-#include <vtk_glew.h>
 
 #include <vector>
 

@@ -4,12 +4,12 @@
 
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLHelper.h>
+#include <vtkOpenGLRenderUtilities.h>  // OpenGL's names, by GLEW or (VTK 9.4) GLAD
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
 #include <vtkRenderer.h>
 #include <vtkShader.h>
 #include <vtkShaderProgram.h>
-#include <vtk_glew.h>
 
 #include <string>
 

@@ -50,11 +50,6 @@ QStringList qSlicerHandEyeCalibrationModule::dependencies() const
   return {};
 }
 
-QStringList qSlicerHandEyeCalibrationModule::associatedNodeTypes() const
-{
-  return { QStringLiteral("vtkMRMLLinearTransformNode") };
-}
-
 void qSlicerHandEyeCalibrationModule::setup()
 {
   this->Superclass::setup();

@@ -26,7 +26,6 @@ public:
   QIcon icon() const override;
   QStringList categories() const override;
   QStringList dependencies() const override;
-  QStringList associatedNodeTypes() const override;
 
 protected:
   void setup() override;

@@ -41,8 +41,10 @@ public:
 
   void DrawString(float* point, const vtkStdString& string) override;
   void ComputeStringBounds(const vtkStdString& string, float bounds[4]) override;
+#if __has_include(<vtkUnicodeString.h>)  // up to VTK 9.1
   void DrawString(float* point, const vtkUnicodeString& string) override;
   void ComputeStringBounds(const vtkUnicodeString& string, float bounds[4]) override;
+#endif
   void ComputeJustifiedStringBounds(const char* string, float bounds[4]) override;
   /// As plain text.
   void DrawMathTextString(float* point, const vtkStdString& string) override;

@@ -9,7 +9,6 @@
 #include <QPainter>
 #include <vtkStdString.h>
 #include <vtkTextProperty.h>
-#include <vtkUnicodeString.h>
 
 #include <algorithm>
 
@@ -58,11 +57,6 @@ void vtkHandEyePainterDevice::DrawString(float* point, const vtkStdString& strin
   this->DrawText(point, QString::fromStdString(string));
 }
 
-void vtkHandEyePainterDevice::DrawString(float* point, const vtkUnicodeString& string)
-{
-  this->DrawText(point, QString::fromUtf8(string.utf8_str()));
-}
-
 void vtkHandEyePainterDevice::DrawMathTextString(float* point, const vtkStdString& string)
 {
   this->DrawString(point, string);
@@ -75,11 +69,6 @@ void vtkHandEyePainterDevice::ComputeStringBounds(const vtkStdString& string, fl
   bounds[0] = bounds[1] = 0;
 }
 
-void vtkHandEyePainterDevice::ComputeStringBounds(const vtkUnicodeString& string, float bounds[4])
-{
-  this->ComputeStringBounds(vtkStdString(string.utf8_str()), bounds);
-}
-
 void vtkHandEyePainterDevice::ComputeJustifiedStringBounds(const char* string, float bounds[4])
 {
   QTransform turned;
@@ -90,3 +79,17 @@ void vtkHandEyePainterDevice::ComputeJustifiedStringBounds(const char* string, f
   bounds[2] = float(box.width());
   bounds[3] = float(box.height());
 }
+
+#if __has_include(<vtkUnicodeString.h>)
+#include <vtkUnicodeString.h>
+
+void vtkHandEyePainterDevice::DrawString(float* point, const vtkUnicodeString& string)
+{
+  this->DrawText(point, QString::fromUtf8(string.utf8_str()));
+}
+
+void vtkHandEyePainterDevice::ComputeStringBounds(const vtkUnicodeString& string, float bounds[4])
+{
+  this->ComputeStringBounds(vtkStdString(string.utf8_str()), bounds);
+}
+#endif

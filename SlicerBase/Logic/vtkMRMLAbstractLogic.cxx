@@ -30,6 +30,7 @@ void vtkMRMLAbstractLogic::SetMRMLScene(vtkMRMLScene* newScene)
   this->SetMRMLSceneInternal(newScene);
   if (newScene)
   {
+    this->RegisterNodes();
     this->ObserveMRMLScene();
   }
   this->Modified();
@@ -42,6 +43,10 @@ void vtkMRMLAbstractLogic::SetMRMLSceneInternal(vtkMRMLScene* newScene)
 
 void vtkMRMLAbstractLogic::ObserveMRMLScene()
 {
-  this->RegisterNodes();
   this->UpdateFromMRMLScene();
+}
+
+void vtkMRMLAbstractLogic::Modified()
+{
+  this->Superclass::Modified();
 }

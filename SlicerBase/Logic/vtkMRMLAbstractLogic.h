@@ -9,7 +9,7 @@
 class vtkMRMLNode;
 class vtkMRMLScene;
 
-/// Stands in for 3D Slicer's class of this name in a build without Slicer: what our logic overrides and calls, with Slicer 5.0's
+/// Stands in for 3D Slicer's class of this name in a build without Slicer: what our logic overrides and calls, with Slicer 5's
 /// signatures.
 ///
 /// Nothing here looks into a scene, and no node is ever reported: without Slicer there is no MRML. The scene is a pointer that is
@@ -23,7 +23,7 @@ public:
 
   vtkMRMLScene* GetMRMLScene() const;
 
-  /// In this order: UnobserveMRMLScene() if there was a scene, SetMRMLSceneInternal(), and, if there is a scene now,
+  /// In this order: UnobserveMRMLScene() if there was a scene, SetMRMLSceneInternal(), and, if there is a scene now, RegisterNodes() and
   /// ObserveMRMLScene(). Nothing happens for the scene that is set already.
   void SetMRMLScene(vtkMRMLScene* newScene);
 
@@ -36,7 +36,7 @@ protected:
 
   /// A scene is no longer that of the logic: whatever was kept of it goes.
   virtual void UnobserveMRMLScene() {}
-  /// There is a new scene: RegisterNodes(), then UpdateFromMRMLScene().
+  /// There is a new scene: UpdateFromMRMLScene().
   virtual void ObserveMRMLScene();
   /// Makes the logic's own node classes known to the scene.
   virtual void RegisterNodes() {}
@@ -45,6 +45,9 @@ protected:
 
   virtual void OnMRMLSceneNodeAdded(vtkMRMLNode* vtkNotUsed(node)) {}
   virtual void OnMRMLSceneNodeRemoved(vtkMRMLNode* vtkNotUsed(node)) {}
+
+  /// For the logic itself, as in Slicer: others do not say that it was modified.
+  void Modified() override;
 
 private:
   vtkMRMLAbstractLogic(const vtkMRMLAbstractLogic&) = delete;

@@ -30,14 +30,14 @@ qSlicerAbstractCoreModule::~qSlicerAbstractCoreModule()
 
 void qSlicerAbstractCoreModule::initialize(vtkSlicerApplicationLogic* appLogic)
 {
-  if (this->Initialized)
-  {
-    return;
-  }
   this->AppLogic = appLogic;
-  this->Logic.TakeReference(this->createLogic());
+  this->logic();
   this->setup();
-  this->Initialized = true;
+}
+
+QString qSlicerAbstractCoreModule::name() const
+{
+  return this->Name;
 }
 
 void qSlicerAbstractCoreModule::setName(const QString& name)
@@ -105,13 +105,25 @@ qSlicerAbstractModuleRepresentation* qSlicerAbstractCoreModule::widgetRepresenta
   return this->Representation;
 }
 
-vtkMRMLAbstractLogic* qSlicerAbstractCoreModule::logic() const
+vtkMRMLAbstractLogic* qSlicerAbstractCoreModule::logic()
 {
+  if (!this->Logic)
+  {
+    this->Logic.TakeReference(this->createLogic());
+    if (this->Logic)
+    {
+      this->Logic->SetMRMLScene(this->Scene);
+    }
+  }
   return this->Logic;
 }
 
 void qSlicerAbstractCoreModule::setMRMLScene(vtkMRMLScene* scene)
 {
+  if (this->Scene == scene)
+  {
+    return;
+  }
   this->Scene = scene;
   if (this->Logic)
   {

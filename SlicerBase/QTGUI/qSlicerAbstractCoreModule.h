@@ -51,13 +51,12 @@ public:
   explicit qSlicerAbstractCoreModule(QObject* parent = nullptr);
   ~qSlicerAbstractCoreModule() override;
 
-  /// Makes the logic and calls setup(); a second call does nothing.
+  /// Makes the logic and calls setup().
   void initialize(vtkSlicerApplicationLogic* appLogic);
-  bool initialized() const { return this->Initialized; }
   vtkSlicerApplicationLogic* appLogic() const { return this->AppLogic; }
 
   /// What the file name says: unique.
-  QString name() const { return this->Name; }
+  virtual QString name() const;
   virtual void setName(const QString& name);
   /// The file it was loaded from.
   QString path() const { return this->Path; }
@@ -79,9 +78,9 @@ public:
   virtual QStringList associatedNodeTypes() const;
 
   /// The panel, made at the first call; null for a module that has none.
-  Q_INVOKABLE qSlicerAbstractModuleRepresentation* widgetRepresentation();
-  /// Null for a module that has none.
-  Q_INVOKABLE vtkMRMLAbstractLogic* logic() const;
+  qSlicerAbstractModuleRepresentation* widgetRepresentation();
+  /// Made at the first call, with the scene; null for a module that has none.
+  Q_INVOKABLE vtkMRMLAbstractLogic* logic();
 
   vtkMRMLScene* mrmlScene() const { return this->Scene; }
 
@@ -102,7 +101,6 @@ private:
 
   QString Name;
   QString Path;
-  bool Initialized = false;
   vtkSlicerApplicationLogic* AppLogic = nullptr;
   vtkMRMLScene* Scene = nullptr;
   vtkSmartPointer<vtkMRMLAbstractLogic> Logic;

@@ -7,13 +7,20 @@ qSlicerAbstractModuleWidget::qSlicerAbstractModuleWidget(QWidget* parent)
 {
 }
 
+qSlicerAbstractModuleWidget::~qSlicerAbstractModuleWidget()
+{
+  Q_ASSERT(!this->Entered);
+}
+
 void qSlicerAbstractModuleWidget::enter()
 {
+  Q_ASSERT(!this->Entered);
   this->Entered = true;
 }
 
 void qSlicerAbstractModuleWidget::exit()
 {
+  Q_ASSERT(this->Entered);
   this->Entered = false;
 }
 

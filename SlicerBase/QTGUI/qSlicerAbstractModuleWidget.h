@@ -7,7 +7,7 @@
 #include "qSlicerWidget.h"
 
 /// Stands in for 3D Slicer's class of this name: a module's panel. A desktop calls enter() when it is shown and exit() when another module
-/// takes its place, or at the end.
+/// takes its place, or at the end; in turns, which is asserted.
 class Q_SLICER_BASE_QTGUI_EXPORT qSlicerAbstractModuleWidget : public qSlicerWidget, public qSlicerAbstractModuleRepresentation
 {
   Q_OBJECT
@@ -16,6 +16,7 @@ public:
   typedef qSlicerWidget Superclass;
 
   explicit qSlicerAbstractModuleWidget(QWidget* parent = nullptr);
+  ~qSlicerAbstractModuleWidget() override;
 
   virtual void enter();
   virtual void exit();

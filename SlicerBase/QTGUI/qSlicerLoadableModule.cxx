@@ -10,13 +10,3 @@ qSlicerLoadableModule::qSlicerLoadableModule(QObject* parent)
 void qSlicerLoadableModule::setup()
 {
 }
-
-qSlicerAbstractModuleRepresentation* qSlicerLoadableModule::createWidgetRepresentation()
-{
-  return nullptr;
-}
-
-vtkMRMLAbstractLogic* qSlicerLoadableModule::createLogic()
-{
-  return nullptr;
-}

@@ -17,8 +17,6 @@ public:
 
 protected:
   void setup() override;
-  qSlicerAbstractModuleRepresentation* createWidgetRepresentation() override;
-  vtkMRMLAbstractLogic* createLogic() override;
 
 private:
   Q_DISABLE_COPY(qSlicerLoadableModule)

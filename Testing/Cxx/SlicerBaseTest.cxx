@@ -29,6 +29,11 @@ protected:
   }
   void UnobserveMRMLScene() override { this->Calls += "leave "; }
   void RegisterNodes() override { this->Calls += "register "; }
+  void ObserveMRMLScene() override
+  {
+    this->Calls += "observe ";
+    this->Superclass::ObserveMRMLScene();
+  }
   void UpdateFromMRMLScene() override { this->Calls += "update "; }
 };
 
@@ -46,7 +51,7 @@ TEST(SlicerBase, Scene_ComesInTheOrderOfSlicer)
   witness->SetMRMLScene(scene);
   witness->SetMRMLScene(scene);
   EXPECT_EQ(witness->GetMRMLScene(), scene);
-  EXPECT_EQ(witness->Calls, "set register update ");
+  EXPECT_EQ(witness->Calls, "set register observe update ");
   witness->Calls.clear();
   witness->SetMRMLScene(nullptr);
   EXPECT_EQ(witness->Calls, "leave set ");

@@ -53,6 +53,11 @@ protected:
   {
     return new SmallModuleWidget;
   }
+
+  vtkMRMLAbstractLogic* createLogic() override
+  {
+    return nullptr;
+  }
 };
 
 #include "SmallModule.moc"
