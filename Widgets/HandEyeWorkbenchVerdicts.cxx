@@ -90,7 +90,7 @@ QString HandEyeWorkbench::problemOf(WizardStep step) const
         ? QString()
         : tr("Hold the ball at a few other places, so that the calibration is tested on them.");
     case WizardStep::Overlay:
-      return !model_.mesh                ? tr("Load a model.")
+      return !model_.mesh               ? tr("Load a model.")
         : isRegisteredForAnotherModel() ? tr("Register the phantom for this mesh, or keep the registration there is.")
         : modelToPhantom_               ? QString()
         : registration_                 ? QString::fromStdString(registration_->message)

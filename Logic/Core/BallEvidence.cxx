@@ -88,8 +88,7 @@ void peel(cv::Mat& disc, int times)
 }
 
 /// @param rimPx so many pixels along the edges do not count
-Inside lookInside(
-  const cv::Mat& image, const BallColorLevels& levels, int level, const std::vector<cv::Point>& polygon, int rimPx)
+Inside lookInside(const cv::Mat& image, const BallColorLevels& levels, int level, const std::vector<cv::Point>& polygon, int rimPx)
 {
   const cv::Rect area = cv::boundingRect(polygon) & levels.window();
   Inside inside;

@@ -141,10 +141,7 @@ private:
 
   /// A round without a step, as if nothing were hidden. Where the start is not good enough to judge by, it is first made better on
   /// the trusted normals.
-  bool look()
-  {
-    return lookOnce() || (settle() && lookOnce());
-  }
+  bool look() { return lookOnce() || (settle() && lookOnce()); }
 
   bool lookOnce()
   {

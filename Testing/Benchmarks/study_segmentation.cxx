@@ -78,7 +78,9 @@ int main(int argc, char** argv)
   app.add_option("--noise", grid.noises, "Standard deviations of the noise, grey levels");
   app.add_option("--places", effort.places, "Places of the ball against the pixels")->check(CLI::PositiveNumber);
   app.add_option("--draws", effort.draws, "Draws of noise at each place, at least 2")->check(CLI::Range(2, 10000));
-  app.add_option("--parts", effort.parts, "Parts of a pixel, in each direction, whose light is blurred by the optics; 1 blurs pixels")
+  app
+    .add_option(
+      "--parts", effort.parts, "Parts of a pixel, in each direction, whose light is blurred by the optics; 1 blurs pixels")
     ->check(CLI::Range(1, 16));
   app.add_flag("--shaded", effort.isShaded, "A lamp from above instead of one colour all over the ball");
   app.add_option("--minimum-fill", options.minimumFill, "Least share of the disc that must have the ball's colour");

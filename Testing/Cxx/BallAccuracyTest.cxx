@@ -49,10 +49,11 @@ INSTANTIATE_TEST_SUITE_P(Grid, BallAccuracy,
   ::testing::Values(Condition{ { "webcam", 6, 0, 0, 1 }, { 12, 8, false } },
     Condition{ { "headset", 6, 35, 0, 3 }, { 12, 8, false } }, Condition{ { "barrel", 14, 24, 0, 2 }, { 10, 8, false } },
     Condition{ { "webcam", 6, 12, 0.25, 3 }, { 12, 8, false } }, Condition{ { "headset", 6, 12, 0.5, 1 }, { 12, 8, false } },
-    Condition{ { "barrel", 6, 35, 0.5, 3 }, { 12, 8, false } }, Condition{ { "webcam", 9, 12, 0.25, 1 }, { 12, 8, false } }, Condition{ { "headset", 9, 24, 0.5, 1 }, { 12, 8, false } },
-    Condition{ { "webcam", 14, 12, 0.25, 1 }, { 10, 8, false } }, Condition{ { "headset", 30, 35, 0, 1 }, { 8, 8, false } },
-    Condition{ { "barrel", 30, 0, 0.5, 1 }, { 8, 8, false } }, Condition{ { "webcam", 60, 24, 0.5, 3 }, { 6, 8, false } },
-    Condition{ { "headset", 120, 12, 0.25, 2 }, { 4, 12, false } }, Condition{ { "barrel", 200, 35, 0, 1 }, { 3, 16, false } }),
+    Condition{ { "barrel", 6, 35, 0.5, 3 }, { 12, 8, false } }, Condition{ { "webcam", 9, 12, 0.25, 1 }, { 12, 8, false } },
+    Condition{ { "headset", 9, 24, 0.5, 1 }, { 12, 8, false } }, Condition{ { "webcam", 14, 12, 0.25, 1 }, { 10, 8, false } },
+    Condition{ { "headset", 30, 35, 0, 1 }, { 8, 8, false } }, Condition{ { "barrel", 30, 0, 0.5, 1 }, { 8, 8, false } },
+    Condition{ { "webcam", 60, 24, 0.5, 3 }, { 6, 8, false } }, Condition{ { "headset", 120, 12, 0.25, 2 }, { 4, 12, false } },
+    Condition{ { "barrel", 200, 35, 0, 1 }, { 3, 16, false } }),
   nameOf);
 
 }  // namespace
