@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AtomicFile.h"
 #include "BoardOptions.h"
-#include "BoardPattern.h"
 #include "BoardResultFiles.h"
 #include "CameraFileWriter.h"
 #include "CommandOutput.h"
 #include "Commands.h"
 #include "CommonOptions.h"
 #include "CoveragePicture.h"
-#include "FileError.h"
 #include "JsonEigen.h"
+#include "LensPictures.h"
 #include "LensStereo.h"
 
 #include <memory>
@@ -26,42 +25,15 @@ struct LensArguments
   std::string recording, right, board, rightFile, leftToRightFile, coverageFile;
   LensCalibrationOptions lens;
   LensViewCollectorOptions collector;
+  LiveSources sources;
+  LiveLensOptions live;
+  int stillFrames = 0;  ///< 0: as it suits the pictures
   double circleDiameterMm = -1;
   int repetitions = 0;
   bool all = false;
   bool keepOutliers = false;
   CommandOutput output;
 };
-
-/// One eye's pictures of the board.
-struct EyeViews
-{
-  std::vector<BoardFrame> frames;
-  std::vector<LensView> views;
-  std::unique_ptr<LensViewCollector> collector;
-  int width = 0;
-  int height = 0;
-};
-
-void readSize(const io::Recording& recording, EyeViews& eye)
-{
-  for (int frame = 0; frame < recording.frameCount(); ++frame)
-  {
-    if (!recording.hasImage(frame))
-    {
-      continue;
-    }
-    const cv::Mat image = recording.image(frame);
-    if (eye.width != 0 && (image.cols != eye.width || image.rows != eye.height))
-    {
-      throw io::FileError(recording.path(),
-        "image " + std::to_string(frame) + " has " + std::to_string(image.cols) + " x " + std::to_string(image.rows) +
-          " pixels, those before it " + std::to_string(eye.width) + " x " + std::to_string(eye.height));
-    }
-    eye.width = image.cols;
-    eye.height = image.rows;
-  }
-}
 
 /// What a line is about, as wide as that of every line.
 std::string title(std::string text)
@@ -71,31 +43,7 @@ std::string title(std::string text)
   return text;
 }
 
-EyeViews readEye(const LensArguments& arguments, const std::string& path, const std::string& label, bool all)
-{
-  const io::Recording recording = io::Recording::openImages(path);
-  arguments.output.warn(recording.warnings());
-  EyeViews eye;
-  readSize(recording, eye);
-  eye.frames = readBoardFrames(
-    recording, parseBoard(arguments.board), {}, arguments.output.progress("looking for the board" + label + ", frame"));
-  if (eye.width == 0)
-  {
-    throw io::FileError(path, "the recording has no images, which this step needs");
-  }
-  eye.collector = std::make_unique<LensViewCollector>(eye.width, eye.height, arguments.collector);
-  eye.views = selectLensViews(eye.frames, all ? nullptr : eye.collector.get());
-  if (all)
-  {
-    for (const BoardFrame& frame : eye.frames)  // for the coverage map
-    {
-      eye.collector->add(frame.frame, frame.detection);
-    }
-  }
-  return eye;
-}
-
-void sayEye(const LensArguments& arguments, const EyeViews& eye, const LensCalibrationResult& result, const std::string& label)
+void sayEye(const LensArguments& arguments, const LensPictures& eye, const LensCalibrationResult& result, const std::string& label)
 {
   const CommandOutput& output = arguments.output;
   const std::string statuses = countStatuses(eye.frames);
@@ -147,7 +95,7 @@ void writeLens(const std::string& path, const LensCalibrationResult& result, con
   output.warn(warnings);
 }
 
-void writeCoverage(const LensArguments& arguments, const EyeViews& eye, const LensCalibrationResult& result)
+void writeCoverage(const LensArguments& arguments, const LensPictures& eye, const LensCalibrationResult& result)
 {
   if (!arguments.coverageFile.empty())
   {
@@ -157,7 +105,7 @@ void writeCoverage(const LensArguments& arguments, const EyeViews& eye, const Le
 }
 
 /// How an eye's lens varies where that was asked for.
-void addRepetitions(const LensArguments& arguments, const EyeViews& eye, const LensCalibrationResult& result,
+void addRepetitions(const LensArguments& arguments, const LensPictures& eye, const LensCalibrationResult& result,
   const std::string& label, nlohmann::json& object)
 {
   if (!result.isUsable() || arguments.repetitions == 0)
@@ -174,9 +122,16 @@ void addRepetitions(const LensArguments& arguments, const EyeViews& eye, const L
     format("; rays move by %.2f px, %.2f at most", repeated.meanShiftPx, repeated.maximumShiftPx));
 }
 
-int runOne(const LensArguments& arguments, const BoardDescription& board)
+int runOne(LensArguments& arguments, const BoardDescription& board)
 {
-  const EyeViews eye = readEye(arguments, arguments.recording, "", arguments.all);
+  const LensPictures eye = arguments.sources.isAskedFor()
+    ? watchLensPictures(arguments.sources, board, arguments.collector, arguments.live, arguments.output)
+    : readLensPictures(arguments.recording, board, arguments.collector, arguments.all, "", arguments.output);
+  if (!eye.collector)
+  {
+    return arguments.output.finish(
+      { { "schema", "handeye-lens/1" }, { "status", "no_pictures" }, { "message", "no picture came from the sources" } });
+  }
   const LensCalibrationResult result = calibrateLens(eye.views, eye.width, eye.height, arguments.lens);
   sayEye(arguments, eye, result, "");
   nlohmann::json object = lensJson(result, board, eye.frames, eye.collector.get());
@@ -202,8 +157,8 @@ void writeTransform(const std::string& path, const Eigen::Isometry3d& transform)
 int runStereo(const LensArguments& arguments, const BoardDescription& board)
 {
   // The eyes have to see the same moments: no picking of views of one of them.
-  const EyeViews left = readEye(arguments, arguments.recording, " (left)", true);
-  const EyeViews right = readEye(arguments, arguments.right, " (right)", true);
+  const LensPictures left = readLensPictures(arguments.recording, board, arguments.collector, true, " (left)", arguments.output);
+  const LensPictures right = readLensPictures(arguments.right, board, arguments.collector, true, " (right)", arguments.output);
   const StereoLensResult result =
     calibrateStereoLens(left.views, left.width, left.height, right.views, right.width, right.height, arguments.lens);
   sayEye(arguments, left, result.left, ", left");
@@ -242,6 +197,21 @@ int runStereo(const LensArguments& arguments, const BoardDescription& board)
 
 int runLens(LensArguments& arguments)
 {
+  const bool isLive = arguments.sources.isAskedFor();
+  if (isLive == !arguments.recording.empty())
+  {
+    throw CLI::ValidationError("handeye camera calibrate",
+      isLive ? "takes a RECORDING or a live video (--server, --video, --replay), not both"
+             : "needs the pictures of the board: a RECORDING, or a live video (--server, --video, --replay)");
+  }
+  if (isLive && (!arguments.right.empty() || arguments.all))
+  {
+    throw CLI::ValidationError(arguments.right.empty() ? "--all" : "--right",
+      "goes with a RECORDING only: of a live video still, sharp and new views of one eye are taken");
+  }
+  arguments.collector.stillFrames = arguments.stillFrames > 0 ? arguments.stillFrames
+    : isLive                                                  ? LensViewCollectorOptions().stillFrames
+                                                              : 1;
   const BoardDescription board = parseBoard(arguments.board);
   arguments.lens.rejectOutlierViews = !arguments.keepOutliers;
   arguments.lens.circleDiameterMm = arguments.circleDiameterMm >= 0 ? arguments.circleDiameterMm : printedCircleDiameterMm(board);
@@ -253,9 +223,18 @@ int runLens(LensArguments& arguments)
 void addCameraCalibrateCommand(CLI::App& app, int& exitCode)
 {
   auto arguments = std::make_shared<LensArguments>();
-  arguments->collector.stillFrames = 1;
   CLI::App* command = cameraGroup(app)->add_subcommand("calibrate", "Find a lens from pictures of a board");
-  addRecordingArgument(*command, arguments->recording, "Pictures of the board: a folder with frames/, or a sequence metafile");
+  command
+    ->add_option("recording", arguments->recording,
+      "Pictures of the board: a folder with frames/, or a sequence metafile; or a live video, see below")
+    ->type_name("RECORDING");
+  arguments->sources.addTo(*command, false);
+  command
+    ->add_option("--seconds", arguments->live.seconds, "Of a live video: so much stream time; until the views suffice otherwise")
+    ->check(CLI::PositiveNumber)
+    ->type_name("SEC");
+  command->add_option("--keep", arguments->live.keepFolder, "Of a live video: store the pictures of the views here, as a RECORDING")
+    ->type_name("DIR");
   addBoardOption(*command, arguments->board);
   command->add_option("--model", arguments->lens.coefficients, "Distortion coefficients: k1 k2 p1 p2, and k3, and k4 k5 k6")
     ->check(CLI::IsMember({ 4, 5, 8 }))
@@ -263,9 +242,9 @@ void addCameraCalibrateCommand(CLI::App& app, int& exitCode)
     ->capture_default_str();
   command->add_flag("--all", arguments->all, "Use every picture that shows the board, not only those that are sharp and new");
   command
-    ->add_option("--still-frames", arguments->collector.stillFrames, "Of a video: the board has stood still for so many frames")
-    ->check(CLI::Range(1, 1000))
-    ->capture_default_str();
+    ->add_option("--still-frames", arguments->stillFrames,
+      "The board has stood still for so many pictures; otherwise 3 of a live video, 1 of a recording")
+    ->check(CLI::Range(1, 1000));
   command->add_flag("--keep-all", arguments->keepOutliers, "Use all views, also those that disagree with the rest");
   command
     ->add_option("--circle-diameter", arguments->circleDiameterMm,

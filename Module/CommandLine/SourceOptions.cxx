@@ -38,7 +38,7 @@ devices::OpenIGTLinkClientOptions parseServer(const std::string& text)
 
 }  // namespace
 
-void LiveSources::addTo(CLI::App& command)
+void LiveSources::addTo(CLI::App& command, bool isRequired)
 {
   CLI::Option_group* from = command.add_option_group("sources");
   from->add_option("--server", servers_, "OpenIGTLink server (PLUS, 3D Slicer, `handeye simulate`); may be given several times")
@@ -48,7 +48,7 @@ void LiveSources::addTo(CLI::App& command)
   from->add_option("--video", video_, "Camera (0 is the first), file, image sequence (frames/%04d.jpg) or URL")
     ->type_name("DEVICE");
   from->add_option("--replay", replay_, "Recording that is played as if it were live")->type_name("RECORDING");
-  from->require_option(1, 0);
+  from->require_option(isRequired ? 1 : 0, 0);
   command.add_option("--speed", speed_, "Of the replay; 0 for as fast as possible")->check(CLI::NonNegativeNumber);
   addLatencyOption(command, pairing.latencySec);
   command.add_option("--image", pairing.imageName, "Which video, where there are several; the first that comes otherwise")

@@ -26,7 +26,11 @@ class LiveSources
 public:
   devices::FramePairingOptions pairing;  ///< with --latency in it
 
-  void addTo(CLI::App& command);
+  /// @param isRequired one of them is needed
+  void addTo(CLI::App& command, bool isRequired = true);
+
+  /// One of them was given.
+  bool isAskedFor() const { return !servers_.empty() || !video_.empty() || !replay_.empty(); }
 
   void start();
   void stop();

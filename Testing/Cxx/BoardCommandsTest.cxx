@@ -193,6 +193,42 @@ TEST_F(BoardCommands, CameraCalibrate_WritesTheLens)
   EXPECT_FALSE(std::filesystem::exists(file("other.yml")));
 }
 
+TEST_F(BoardCommands, CameraCalibrate_FromLiveVideo_TakesViewsAndKeepsTheirPictures)
+{
+  // As if live, so slowly that a busy machine sees each picture; each board stands still for one of them only.
+  const std::vector<std::string> live{ "camera", "calibrate", "--replay", file("board"), "--speed", "0.2", "--still-frames", "1",
+    "--board", Board, "--model", "4", "--keep", file("kept"), "--json", "-o", file("live.yml") };
+  const CommandResult result = run(live);
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const json object = result.json();
+  EXPECT_NEAR(object["camera"]["cameraMatrix"][0][0].get<double>(), 450, 2);
+  EXPECT_NE(result.err.find("view 1 taken"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("of the image covered. Hold"), std::string::npos) << "what to do next: " << result.err;
+  // The pictures that were kept give the same lens.
+  const CommandResult again = run({ "camera", "calibrate", file("kept"), "--board", Board, "--model", "4", "--all", "--json" });
+  ASSERT_EQ(again.exitCode, 0) << again.err;
+  EXPECT_EQ(again.json()["views"].size(), object["views"].size());
+  EXPECT_NEAR(
+    again.json()["camera"]["cameraMatrix"][0][0].get<double>(), object["camera"]["cameraMatrix"][0][0].get<double>(), 1e-6);
+  // They are not replaced.
+  const CommandResult second = run(live);
+  EXPECT_EQ(second.exitCode, 2);
+  EXPECT_NE(second.err.find("not replaced"), std::string::npos) << second.err;
+  // Soon ended, there are too few.
+  const CommandResult few = run({ "camera", "calibrate", "--replay", file("board"), "--speed", "0.2", "--still-frames", "1",
+    "--seconds", "0.2", "--board", Board });
+  EXPECT_EQ(few.exitCode, 1);
+  EXPECT_NE(few.err.find("too_few_views"), std::string::npos) << few.err;
+  // A recording or a live video, one of them.
+  for (const std::vector<std::string>& wrong : { std::vector<std::string>{ "camera", "calibrate", "--board", Board },
+         { "camera", "calibrate", file("board"), "--replay", file("board"), "--board", Board },
+         { "camera", "calibrate", "--replay", file("board"), "--all", "--board", Board },
+         { "camera", "calibrate", "--video", file("nothing.mp4"), "--board", Board } })
+  {
+    EXPECT_EQ(run(wrong).exitCode, 2) << wrong.back();
+  }
+}
+
 TEST_F(BoardCommands, CameraCalibrate_StereoPair_HasBothLensesAndTheirRelation)
 {
   // The same eye twice: what is between them is known, nothing.
