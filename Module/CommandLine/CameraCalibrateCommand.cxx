@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AtomicFile.h"
 #include "BoardOptions.h"
+#include "BoardPattern.h"
 #include "BoardResultFiles.h"
 #include "CameraFileWriter.h"
 #include "CommandOutput.h"
