@@ -60,6 +60,9 @@ constexpr double Whole = 0.9;
 /// How well a hiding edge is known before (px, rad), so that the equations can be solved.
 constexpr double EdgeSigmaPx = 2;
 constexpr double EdgeSigmaTurn = 0.7;
+/// How well the outline (px, root mean square all around) and the blur (px) are known before.
+constexpr double StartSigmaPx = 0.2;
+constexpr double StartBlurSigmaPx = 0.2;
 
 /// The supported normals without the ends of each stretch of them.
 std::vector<char> trusted(const SphereCone::Outline& outline, const EvenLightStart& start, double spacingPx)
@@ -153,9 +156,10 @@ private:
     return isEven() && judge();
   }
 
+  /// The trusted normals may be a short arc, which leaves the outline's far side free: it is held by where the edges put it.
   bool settle()
   {
-    if (std::exchange(isSettled_, true))
+    if (std::exchange(isSettled_, true) || std::size_t(std::count(isTrusted_.begin(), isTrusted_.end(), char(1))) < FewestNormals)
     {
       return false;
     }
@@ -166,14 +170,31 @@ private:
     {
       collect();
       model_.average(isTrusted_);
-      if (!move(true))
+      if (!move(true, startInformation()))
       {
         return false;
       }
     }
+    if (movedPx() > LargestMovePx)
+    {
+      return false;
+    }
     startStep_ = model_.step();
-    startBlurPx_ = model_.blurPx();
-    return movedPx() <= LargestMovePx;
+    startBlurPx_ = std::max(model_.blurPx(), EdgeProfiles::SharpestPx);
+    return true;
+  }
+
+  /// Of the outline and the blur, as well as the start knows them.
+  Eigen::Matrix4d startInformation() const
+  {
+    Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+    for (const Eigen::Vector3d& rate : outline_.rates)
+    {
+      information.topLeftCorner<3, 3>() += rate * rate.transpose();
+    }
+    information *= double(noise_) / (StartSigmaPx * StartSigmaPx * double(outline_.rates.size()));
+    information(3, 3) = double(noise_) / (StartBlurSigmaPx * StartBlurSigmaPx);
+    return information;
   }
 
   bool fitWith(const std::vector<HidingEdge>& edges)
@@ -288,12 +309,14 @@ private:
   }
 
   /// A step of Gauss and Newton: of all, or of the hiding edges alone.
-  bool move(bool isOfAll)
+  /// @param prior what is known of outline and blur besides
+  bool move(bool isOfAll, const Eigen::Matrix4d& prior = Eigen::Matrix4d::Zero())
   {
     using Model = EvenLightModel;
     const int count = model_.parameterCount();
     Model::Matrix information = Model::Matrix::Zero(count, count);
     Model::Vector right = Model::Vector::Zero(count);
+    information.topLeftCorner<4, 4>() = prior;
     for (int i = Model::OfOutline; i < count; i += Model::OfEdge)
     {
       information(i, i) = double(noise_) / (EdgeSigmaPx * EdgeSigmaPx);

@@ -331,6 +331,23 @@ TEST_P(BallConditions, RedRings_AreNoBall)
   }
 }
 
+TEST_P(BallConditions, SmallRedRingsBehindAHand_AreNoBall)
+{
+  for (const double radiusPx : { 6.0, 8.0, 11.0 })
+  {
+    for (const int coveredPx : { 0, 2, 4 })
+    {
+      const double left = 330.3 + radiusPx - coveredPx, top = 230, right = left + 60, bottom = 275;
+      const BallDetection found =
+        detect(scene()
+                 .ring({ 330.3, 251.6 }, radiusPx, std::max(2, int(0.3 * radiusPx)), BallRed)
+                 .polygon({ { left, top }, { right, top }, { right, bottom }, { left, bottom } }, GloveBlue)
+                 .photograph());
+      EXPECT_FALSE(found.isFound()) << radiusPx << " px, " << coveredPx << " px covered, confidence " << found.confidence;
+    }
+  }
+}
+
 TEST_P(BallConditions, RedSquare_IsNoBall)
 {
   for (const double halfPx : { 10.0, 30.0, 70.0 })
