@@ -11,7 +11,7 @@ class vtkPolyData;
 namespace handeye
 {
 
-/// A mesh made ready for vtkHandEyeLensMapper.
+/// A mesh made ready for vtkHandEyeLensMapper, by prepareOverlayMesh().
 struct OverlayMesh
 {
   vtkSmartPointer<vtkPolyData> mesh;  ///< triangles only, with point normals
@@ -19,8 +19,8 @@ struct OverlayMesh
   bool isClosed = false;              ///< isClosedSurface()
 };
 
-/// Triangles and normals (made where they are missing). The input is not changed. Takes tens of ms for a large mesh, and may be called in
-/// any thread.
+/// Triangles and normals (made where they are missing). The input is not changed. Takes tens of ms for a large mesh; any thread may
+/// call it while nobody else uses the input.
 VTK_SLICER_HANDEYECALIBRATION_MODULE_LOGIC_EXPORT OverlayMesh prepareOverlayMesh(vtkPolyData* model);
 
 /// Edges no longer than `longestEdgeMm`: longer ones are divided, without cracks. Where that would need more than a million triangles,

@@ -86,8 +86,6 @@ void vtkHandEyeOverlayPipeline::SetModel(vtkPolyData* model)
   {
     this->Internal->Model = model;
     this->Internal->SetBaseMesh({});
-    this->Internal->State.Mesh = nullptr;
-    this->Internal->LongestEdgeMm = 0;
     this->Modified();
   }
 }
@@ -96,8 +94,9 @@ void vtkHandEyeOverlayPipeline::SetPreparedModel(const handeye::OverlayMesh& mod
 {
   if (this->Internal->Model != model.mesh)
   {
-    this->SetModel(model.mesh);
+    this->Internal->Model = model.mesh;
     this->Internal->SetBaseMesh(model);
+    this->Modified();
   }
 }
 

@@ -64,7 +64,8 @@ public:
 
   /// The mesh, mm; shared, not copied, not changed. Null takes the model away. @sa handeye::readMesh()
   void SetModel(vtkPolyData* model);
-  /// The same, with what else has to be made before a mesh's first picture made beside, in another thread.
+  /// The same of what handeye::prepareOverlayMesh() made of it, in another thread for instance: it is not made here again. (Long edges
+  /// are still divided at the first rendering, for this lens.)
   void SetPreparedModel(const handeye::OverlayMesh& model);
   vtkPolyData* GetModel();
 

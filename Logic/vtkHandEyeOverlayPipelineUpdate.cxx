@@ -113,6 +113,8 @@ void vtkHandEyeOverlayPipeline::Internals::SetBaseMesh(const handeye::OverlayMes
   this->BaseMesh = mesh;
   this->Meshes.clear();
   this->MeshDistanceMm = 0;
+  this->LongestEdgeMm = 0;
+  this->State.Mesh = nullptr;
   this->State.MeshIsClosed = mesh.isClosed;
   this->MeshTime = this->Model ? this->ModelTime() : 0;
 }

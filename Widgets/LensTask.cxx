@@ -3,7 +3,7 @@
 #include "LensTask.h"
 
 #include "BoardPattern.h"
-#include "LensViewCollector.h"
+#include "LensCollection.h"
 #include "Recording.h"
 #include "WorkThread.h"
 
@@ -17,66 +17,56 @@
 namespace handeye
 {
 
+namespace
+{
+
+LensViewCollectorOptions optionsFor(bool isLive)
+{
+  LensViewCollectorOptions options;
+  options.stillFrames = isLive ? options.stillFrames : 1;
+  return options;
+}
+
+}  // namespace
+
 /// Views of one board; of the work's thread, but for `board` and `isLive`, which stay as they are.
 struct LensTask::Collection
 {
-  BoardDescription board;
-  bool isLive = true;
-  std::unique_ptr<LensViewCollector> collector;
-  State state;
-  std::map<QString, int> reasons;  ///< why pictures show no board
+  Collection(const BoardDescription& ofBoard, bool isOfLiveVideo)
+    : board(ofBoard)
+    , isLive(isOfLiveVideo)
+    , pictures(ofBoard, optionsFor(isOfLiveVideo))
+  {
+  }
 
   void add(const cv::Mat& image);
-  QString commonestReason() const;
+
+  const BoardDescription board;
+  const bool isLive;
+  LensCollection pictures;
+  State state;
 };
 
 void LensTask::Collection::add(const cv::Mat& image)
 {
-  if (!collector)
+  const LensCollection::Look look = pictures.add(image);
+  const LensViewCollector& collector = *pictures.collector();
+  state.width = pictures.width();
+  state.height = pictures.height();
+  state.pictures = pictures.pictureCount();
+  state.withBoard = pictures.withBoardCount();
+  state.wasTaken = look.isTaken;
+  state.seen = QString::fromStdString(look.message);
+  state.hint = QString::fromStdString(collector.hint());
+  if (look.isTaken)
   {
-    LensViewCollectorOptions options;
-    options.stillFrames = isLive ? options.stillFrames : 1;
-    collector = std::make_unique<LensViewCollector>(image.cols, image.rows, options);
-    state.width = image.cols;
-    state.height = image.rows;
-  }
-  if (image.cols != state.width || image.rows != state.height)
-  {
-    throw std::runtime_error(
-      tr("The picture's size changed from %1 x %2 to %3 x %4 px. A lens is calibrated at one size: forget the "
-         "views and start again.")
-        .arg(state.width)
-        .arg(state.height)
-        .arg(image.cols)
-        .arg(image.rows)
-        .toStdString());
-  }
-  const BoardDetection detection = detectBoard(image, board);
-  const LensViewVerdict verdict = collector->add(state.pictures++, detection);
-  state.withBoard += detection.isUsable() ? 1 : 0;
-  state.wasTaken = verdict.isTaken();
-  state.seen = QString::fromStdString(verdict.message);
-  state.hint = QString::fromStdString(collector->hint());
-  if (!detection.isUsable())
-  {
-    ++reasons[QString::fromStdString(detection.message)];
-  }
-  if (verdict.isTaken())
-  {
-    const LensView& view = collector->views().back();
+    const LensView& view = collector.views().back();
     state.points_Image.insert(state.points_Image.end(), view.points_Image.begin(), view.points_Image.end());
-    state.views = int(collector->views().size());
-    state.coverage = collector->coverage();
-    state.coverageShare = collector->coverageShare();
-    state.completeness = collector->completeness();
+    state.views = int(collector.views().size());
+    state.coverage = collector.coverage();
+    state.coverageShare = collector.coverageShare();
+    state.completeness = collector.completeness();
   }
-}
-
-QString LensTask::Collection::commonestReason() const
-{
-  const auto most = std::max_element(
-    reasons.begin(), reasons.end(), [](const auto& left, const auto& right) { return left.second < right.second; });
-  return most == reasons.end() ? QString() : most->first;
 }
 
 LensTask::LensTask(WorkThread& work, QObject* parent)
@@ -107,8 +97,7 @@ void LensTask::start(const BoardDescription& board)
   if (!collection_ || !collection_->isLive || toString(collection_->board) != toString(board))
   {
     clear();
-    collection_ = std::make_shared<Collection>();
-    collection_->board = board;
+    collection_ = std::make_shared<Collection>(board, true);
   }
   setLive(collection_);
 }
@@ -215,9 +204,7 @@ void LensTask::calibrateRecording(const QString& path, const BoardDescription& b
     return;
   }
   clear();
-  collection_ = std::make_shared<Collection>();
-  collection_->board = board;
-  collection_->isLive = false;
+  collection_ = std::make_shared<Collection>(board, false);
   const Flag isCancelled = beginWork();
   work_.post([this, path, collection = collection_, isCancelled]
     { work(collection, isCancelled, [&] { return readRecording(path, collection, isCancelled); }); });
@@ -252,7 +239,7 @@ void LensTask::work(const std::shared_ptr<Collection>& collection, const Flag& i
   try
   {
     isDone = prepare();
-    if (isDone && !collection->collector)
+    if (isDone && !collection->pictures.collector())
     {
       message = tr("No picture has arrived, so there is nothing to calibrate from.");
     }
@@ -261,7 +248,7 @@ void LensTask::work(const std::shared_ptr<Collection>& collection, const Flag& i
       LensCalibrationOptions options;
       options.circleDiameterMm = printedCircleDiameterMm(collection->board);
       result = Result{ collection->board,
-        calibrateLens(collection->collector->views(), collection->state.width, collection->state.height, options) };
+        calibrateLens(collection->pictures.views(), collection->state.width, collection->state.height, options) };
       message = refusal(*collection, result->calibration);
     }
   }
@@ -298,7 +285,7 @@ QString LensTask::refusal(const Collection& collection, const LensCalibrationRes
     return {};
   }
   const State& state = collection.state;
-  const QString reason = collection.commonestReason();
+  const QString reason = QString::fromStdString(collection.pictures.commonestReason());
   if (state.withBoard == 0 && !reason.isEmpty())
   {
     return tr("None of %1 pictures shows the board %2: %3. Is it the board that is chosen above?")

@@ -9,6 +9,9 @@
 #include <QPainter>
 #include <vtkStdString.h>
 #include <vtkTextProperty.h>
+#if __has_include(<vtkUnicodeString.h>)  // up to VTK 9.1
+#include <vtkUnicodeString.h>
+#endif
 
 #include <algorithm>
 
@@ -81,8 +84,6 @@ void vtkHandEyePainterDevice::ComputeJustifiedStringBounds(const char* string, f
 }
 
 #if __has_include(<vtkUnicodeString.h>)
-#include <vtkUnicodeString.h>
-
 void vtkHandEyePainterDevice::DrawString(float* point, const vtkUnicodeString& string)
 {
   this->DrawText(point, QString::fromUtf8(string.utf8_str()));

@@ -134,7 +134,8 @@ void ReplaySource::run()
 {
   try
   {
-    const io::Recording recording = io::Recording::open(options_.recording);
+    const io::Recording recording =
+      options_.needsTracking ? io::Recording::open(options_.recording) : io::Recording::openImages(options_.recording);
     countConnection();
     setState(SourceState::Streaming, "playing " + name());
     play(recording);

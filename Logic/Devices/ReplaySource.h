@@ -20,6 +20,7 @@ struct ReplayOptions
 {
   std::filesystem::path recording;
   double speed = 1;                 ///< 2: twice as fast; 0: as fast as it is taken
+  bool needsTracking = true;        ///< otherwise pictures alone will do
   bool isStepwise = false;          ///< a frame for each step()
   bool isLooping = false;           ///< from the beginning again, with times that go on
   std::string imageName = "Image";  ///< of the image samples

@@ -47,9 +47,7 @@ std::string title(std::string text)
 void sayEye(const LensArguments& arguments, const LensPictures& eye, const LensCalibrationResult& result, const std::string& label)
 {
   const CommandOutput& output = arguments.output;
-  const std::string statuses = countStatuses(eye.frames);
-  output.say(title("views" + label) + std::to_string(eye.views.size()) + " of " + std::to_string(eye.frames.size()) + " frames" +
-    (statuses.empty() ? "" : " (not used: " + statuses + ")"));
+  output.say(title("views" + label) + eye.summary);
   output.say(format("coverage             %.0f %% of the image", 100 * eye.collector->coverageShare()));
   for (const LensCalibrationResult::View& view : result.views)
   {
@@ -128,14 +126,25 @@ int runOne(LensArguments& arguments, const BoardDescription& board)
   const LensPictures eye = arguments.sources.isAskedFor()
     ? watchLensPictures(arguments.sources, board, arguments.collector, arguments.live, arguments.output)
     : readLensPictures(arguments.recording, board, arguments.collector, arguments.all, "", arguments.output);
+  if (!eye.problem.empty())
+  {
+    arguments.output.warn({ eye.problem });
+  }
   if (!eye.collector)
   {
-    return arguments.output.finish(
-      { { "schema", "handeye-lens/1" }, { "status", "no_pictures" }, { "message", "no picture came from the sources" } });
+    nlohmann::json object = lensJson({}, board, {}, nullptr);
+    object["status"] = "no_pictures";
+    object["message"] = eye.problem;
+    object["sources"] = arguments.sources.statusJson();
+    return arguments.output.finish(object);
   }
   const LensCalibrationResult result = calibrateLens(eye.views, eye.width, eye.height, arguments.lens);
   sayEye(arguments, eye, result, "");
-  nlohmann::json object = lensJson(result, board, eye.frames, eye.collector.get());
+  nlohmann::json object = lensJson(result, board, eye.frames, &*eye.collector);
+  if (arguments.sources.isAskedFor())
+  {
+    object["sources"] = arguments.sources.statusJson();
+  }
   addRepetitions(arguments, eye, result, "", object);
   writeCoverage(arguments, eye, result);
   return arguments.output.finish(object, [&](const std::string& path) { writeLens(path, result, arguments.output); });
@@ -165,8 +174,8 @@ int runStereo(const LensArguments& arguments, const BoardDescription& board)
   sayEye(arguments, left, result.left, ", left");
   sayEye(arguments, right, result.right, ", right");
   nlohmann::json object = { { "schema", "handeye-stereo-lens/1" }, { "status", toString(result.status) },
-    { "message", result.message }, { "left", lensJson(result.left, board, left.frames, left.collector.get()) },
-    { "right", lensJson(result.right, board, right.frames, right.collector.get()) } };
+    { "message", result.message }, { "left", lensJson(result.left, board, left.frames, &*left.collector) },
+    { "right", lensJson(result.right, board, right.frames, &*right.collector) } };
   addRepetitions(arguments, left, result.left, ", left", object["left"]);
   addRepetitions(arguments, right, result.right, ", right", object["right"]);
   if (result.isUsable())
@@ -205,6 +214,11 @@ int runLens(LensArguments& arguments)
       isLive ? "takes a RECORDING or a live video (--server, --video, --replay), not both"
              : "needs the pictures of the board: a RECORDING, or a live video (--server, --video, --replay)");
   }
+  if (!isLive && (arguments.live.seconds > 0 || !arguments.live.storeFolder.empty()))
+  {
+    throw CLI::ValidationError(
+      arguments.live.seconds > 0 ? "--seconds" : "--store-pictures", "goes with a live video only (--server, --video, --replay)");
+  }
   if (isLive && (!arguments.right.empty() || arguments.all))
   {
     throw CLI::ValidationError(arguments.right.empty() ? "--all" : "--right",
@@ -229,12 +243,13 @@ void addCameraCalibrateCommand(CLI::App& app, int& exitCode)
     ->add_option("recording", arguments->recording,
       "Pictures of the board: a folder with frames/, or a sequence metafile; or a live video, see below")
     ->type_name("RECORDING");
-  arguments->sources.addTo(*command, false);
-  command
-    ->add_option("--seconds", arguments->live.seconds, "Of a live video: so much stream time; until the views suffice otherwise")
+  arguments->sources.addPicturesTo(*command);
+  command->add_option("--seconds", arguments->live.seconds, "Of a live video: at most so much stream time")
     ->check(CLI::PositiveNumber)
     ->type_name("SEC");
-  command->add_option("--keep", arguments->live.keepFolder, "Of a live video: store the pictures of the views here, as a RECORDING")
+  command
+    ->add_option("--store-pictures", arguments->live.storeFolder,
+      "Of a live video: store the pictures of the views in this folder, to be used again as a RECORDING")
     ->type_name("DIR");
   addBoardOption(*command, arguments->board);
   command->add_option("--model", arguments->lens.coefficients, "Distortion coefficients: k1 k2 p1 p2, and k3, and k4 k5 k6")

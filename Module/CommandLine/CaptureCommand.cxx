@@ -6,6 +6,7 @@
 #include "CommonOptions.h"
 #include "FileError.h"
 #include "LiveCapture.h"
+#include "PacedMessages.h"
 #include "ResultFiles.h"
 #include "SourceOptions.h"
 #include "StopSignal.h"
@@ -38,6 +39,7 @@ public:
   Capturing(devices::LiveCapture& capture, const CommandOutput& output)
     : capture_(capture)
     , output_(output)
+    , problems_([&output](const std::string& problem) { output.warn({ problem }); })
   {
   }
 
@@ -59,21 +61,13 @@ public:
     {
       problem = error.what();
     }
-    const bool isNews =
-      !problem.empty() && (problem != last_ || frame.image.timeSec > lastSec_ + 5) && frame.image.timeSec > lastSec_ + 1;
-    if (isNews)
-    {
-      output_.warn({ problem });
-      last_ = problem;
-      lastSec_ = frame.image.timeSec;
-    }
+    problems_.add(problem, frame.image.timeSec);
   }
 
 private:
   devices::LiveCapture& capture_;
   const CommandOutput& output_;
-  std::string last_;
-  double lastSec_ = -1e300;
+  PacedMessages problems_;
 };
 
 /// A recording that fails (full disk) is said once; the capture goes on.

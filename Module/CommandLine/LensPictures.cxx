@@ -2,26 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LensPictures.h"
 
-#include "BoardPattern.h"
 #include "FileError.h"
 #include "ImageFile.h"
+#include "LensCollection.h"
+#include "PacedMessages.h"
 #include "Recording.h"
 #include "StopSignal.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <optional>
 
 namespace handeye::cli
 {
 
 namespace
 {
-
-/// What keeps being wrong is said again after so long, s of stream time.
-constexpr double SayAgainSec = 3;
-/// So many samples are read at once before a picture is looked at.
-constexpr int MostAtOnce = 500;
 
 void readSize(const io::Recording& recording, LensPictures& pictures)
 {
@@ -43,118 +39,124 @@ void readSize(const io::Recording& recording, LensPictures& pictures)
   }
 }
 
+std::string summaryOf(std::size_t used, std::size_t all, const std::string& notUsed)
+{
+  return std::to_string(used) + " of " + std::to_string(all) + " frames" + (notUsed.empty() ? "" : " (not used: " + notUsed + ")");
+}
+
+/// Where the pictures of the views are stored.
+class PictureFolder
+{
+public:
+  explicit PictureFolder(const std::string& folder)
+    : folder_(folder)
+  {
+    if (folder.empty())
+    {
+      return;
+    }
+    const std::filesystem::path frames = folder_ / "frames";
+    std::error_code error;
+    std::filesystem::create_directories(frames, error);
+    if (error)
+    {
+      throw io::FileError(folder, "cannot be made: " + error.message());
+    }
+    if (!std::filesystem::is_empty(frames))
+    {
+      throw io::FileError(folder, "has pictures already: they are not replaced; name another folder");
+    }
+  }
+
+  void add(std::size_t view, const cv::Mat& image) const
+  {
+    if (!folder_.empty())
+    {
+      char name[32];
+      std::snprintf(name, sizeof(name), "%04zu.png", view);
+      io::writePng(folder_ / "frames" / name, image);
+    }
+  }
+
+private:
+  std::filesystem::path folder_;
+};
+
 /// Looks at one picture of a live video after the other.
 class Watcher
 {
 public:
   Watcher(const BoardDescription& board, const LensViewCollectorOptions& options, const LiveLensOptions& live,
     const CommandOutput& output)
-    : board_(board)
-    , options_(options)
-    , live_(live)
+    : pictures_(board, options)
+    , folder_(live.storeFolder)
     , output_(output)
+    , hints_([&output](const std::string& message) { output.say(message); })
   {
-    if (!live.keepFolder.empty() && std::filesystem::exists(kept(0)))
-    {
-      throw io::FileError(live.keepFolder, "has pictures already: they are not replaced; name another folder");
-    }
   }
 
   void add(const devices::DeviceSample& sample)
   {
     const cv::Mat& image = sample.frame()->image;
-    if (!pictures_.collector)
+    try
     {
-      pictures_.width = image.cols;
-      pictures_.height = image.rows;
-      pictures_.collector = std::make_unique<LensViewCollector>(image.cols, image.rows, options_);
+      const LensCollection::Look look = pictures_.add(image);
+      if (look.isTaken)
+      {
+        folder_.add(pictures_.detections().size() - 1, image);
+        sayTaken();
+      }
+      else
+      {
+        hints_.add(look.message, sample.timeSec);
+      }
     }
-    if (image.cols != pictures_.width || image.rows != pictures_.height)
+    catch (const std::exception& error)  // a picture of another size; a full disk, which does not cost the view
     {
-      sayProblem("a picture of another size is left out: " + std::to_string(image.cols) + " x " + std::to_string(image.rows) +
-          " px, the first had " + std::to_string(pictures_.width) + " x " + std::to_string(pictures_.height),
-        sample.timeSec);
-      return;
+      hints_.add(error.what(), sample.timeSec);
     }
-    const int index = int(pictures_.frames.size());
-    const BoardDetection detection = detectBoard(image, board_);
-    const LensViewVerdict verdict = pictures_.collector->add(index, detection);
-    pictures_.frames.push_back({ index,
-      verdict.isTaken()        ? "ok"
-        : detection.isUsable() ? toString(verdict.status)
-                               : toString(detection.status),
-      detection.isUsable() ? verdict.message : detection.message, {} });
-    if (!verdict.isTaken())
-    {
-      sayProblem(pictures_.frames.back().message, sample.timeSec);
-      return;
-    }
-    pictures_.frames.back().detection = detection;
-    keep(image);
-    const LensViewCollector& collector = *pictures_.collector;
-    const auto count = collector.views().size();
-    output_.say("view " + std::to_string(count) +
-      format(" taken, %.0f %% of the image covered. ", 100 * collector.coverageShare()) +
-      (collector.isComplete() ? "That is enough." : collector.hint()));
     std::cout << std::flush;
-    lastProblem_.clear();
   }
 
-  bool isComplete() const { return pictures_.collector && pictures_.collector->isComplete(); }
+  bool hasPictures() const { return pictures_.collector() != nullptr; }
+  bool isComplete() const { return hasPictures() && pictures_.collector()->isComplete(); }
 
-  LensPictures result()
+  LensPictures result() const
   {
-    if (pictures_.collector)
+    LensPictures result;
+    result.views = pictures_.views();
+    result.width = pictures_.width();
+    result.height = pictures_.height();
+    if (hasPictures())
     {
-      pictures_.views = pictures_.collector->views();
+      result.collector = *pictures_.collector();
     }
-    return std::move(pictures_);
+    for (std::size_t i = 0; i < pictures_.detections().size(); ++i)
+    {
+      result.frames.push_back({ int(i), "ok", {}, pictures_.detections()[i] });
+    }
+    std::string notTaken;
+    for (const auto& [reason, count] : pictures_.notTaken())
+    {
+      notTaken += (notTaken.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
+    }
+    result.summary = summaryOf(result.views.size(), std::size_t(pictures_.pictureCount()), notTaken);
+    return result;
   }
 
 private:
-  std::filesystem::path kept(std::size_t view) const
+  void sayTaken() const
   {
-    char name[32];
-    std::snprintf(name, sizeof(name), "%04zu.png", view);
-    return std::filesystem::path(live_.keepFolder) / "frames" / name;
+    const LensViewCollector& collector = *pictures_.collector();
+    output_.say("view " + std::to_string(collector.views().size()) +
+      format(" taken, %.0f %% of the image covered. ", 100 * collector.coverageShare()) +
+      (collector.isComplete() ? "That is enough." : collector.hint()));
   }
 
-  /// A full disk does not cost the view.
-  void keep(const cv::Mat& image) const
-  {
-    if (live_.keepFolder.empty())
-    {
-      return;
-    }
-    try
-    {
-      const std::filesystem::path file = kept(pictures_.collector->views().size() - 1);
-      std::filesystem::create_directories(file.parent_path());
-      io::writePng(file, image);
-    }
-    catch (const std::exception& error)
-    {
-      output_.warn({ "the picture of this view could not be stored: " + std::string(error.what()) });
-    }
-  }
-
-  void sayProblem(const std::string& problem, double timeSec)
-  {
-    if (problem != lastProblem_ || timeSec > lastSec_ + SayAgainSec)
-    {
-      output_.warn({ problem });
-      lastProblem_ = problem;
-      lastSec_ = timeSec;
-    }
-  }
-
-  const BoardDescription& board_;
-  const LensViewCollectorOptions& options_;
-  const LiveLensOptions& live_;
+  LensCollection pictures_;
+  PictureFolder folder_;
   const CommandOutput& output_;
-  LensPictures pictures_;
-  std::string lastProblem_;
-  double lastSec_ = 0;
+  PacedMessages hints_;
 };
 
 }  // namespace
@@ -171,8 +173,9 @@ LensPictures readLensPictures(const std::string& path, const BoardDescription& b
   {
     throw io::FileError(path, "the recording has no images, which this step needs");
   }
-  pictures.collector = std::make_unique<LensViewCollector>(pictures.width, pictures.height, options);
-  pictures.views = selectLensViews(pictures.frames, all ? nullptr : pictures.collector.get());
+  pictures.collector.emplace(pictures.width, pictures.height, options);
+  pictures.views = selectLensViews(pictures.frames, all ? nullptr : &*pictures.collector);
+  pictures.summary = summaryOf(pictures.views.size(), pictures.frames.size(), countStatuses(pictures.frames));
   if (all)
   {
     for (const BoardFrame& frame : pictures.frames)  // for the coverage map
@@ -187,47 +190,46 @@ LensPictures watchLensPictures(LiveSources& sources, const BoardDescription& boa
   const LiveLensOptions& live, const CommandOutput& output)
 {
   Watcher watcher(board, options, live, output);
-  sources.pairing.toolNames.clear();
   sources.start();
   catchStopSignals();
   devices::FramePairing pairing(sources.pairing);
   output.say("Show the board from all sides and in all corners; hold it still each time. Ctrl+C ends with what there is.");
   std::cout << std::flush;
+  const double startSec = devices::systemTimeSec();
+  const auto isWithoutPictures = [&] { return !watcher.hasPictures() && devices::systemTimeSec() > startSec + sources.waitSec(); };
   const auto isDone = [&]
-  { return isStopAsked() || watcher.isComplete() || (live.seconds > 0 && sources.streamSec() > live.seconds); };
-  while (!isDone() && sources.isAlive())
   {
-    std::optional<devices::DeviceSample> newest;
-    for (int count = 0; count < MostAtOnce; ++count)
+    return isStopAsked() || watcher.isComplete() || isWithoutPictures() || !sources.isAlive() ||
+      (live.seconds > 0 && sources.streamSec() > live.seconds);
+  };
+  while (!isDone())
+  {
+    // The newest picture of all that have come.
+    std::optional<devices::PairedFrame> newest;
+    std::optional<devices::DeviceSample> sample;
+    while (!isDone() && (sample = sources.pop(newest ? 0 : 0.1)))
     {
-      std::optional<devices::DeviceSample> sample = sources.pop(newest ? 0 : 0.1);
-      if (!sample)
-      {
-        break;
-      }
-      if (!sample->frame())
-      {
-        continue;
-      }
       pairing.add(std::move(*sample));
-      sources.warnOfOtherImages(pairing, output);
       while (std::optional<devices::PairedFrame> frame = pairing.takeRest())
       {
-        newest = std::move(frame->image);
+        newest = std::move(frame);
       }
     }
+    sources.warnOfOtherImages(pairing, output);
     if (newest)
     {
-      watcher.add(*newest);
+      watcher.add(newest->image);
     }
   }
-  const std::string missing = sources.missingAtEnd();
-  sources.stop();
-  if (!missing.empty())
+  LensPictures result = watcher.result();
+  result.problem = sources.missingAtEnd();
+  if (result.problem.empty() && !watcher.hasPictures())
   {
-    output.warn({ missing });
+    result.problem = "no picture came" +
+      (sources.pairing.imageName.empty() ? std::string() : " of '" + sources.pairing.imageName + "'") + ". " + sources.message();
   }
-  return watcher.result();
+  sources.stop();
+  return result;
 }
 
 }  // namespace handeye::cli

@@ -38,7 +38,19 @@ devices::OpenIGTLinkClientOptions parseServer(const std::string& text)
 
 }  // namespace
 
-void LiveSources::addTo(CLI::App& command, bool isRequired)
+void LiveSources::addTo(CLI::App& command)
+{
+  addSourcesTo(command, true);
+  addLatencyOption(command, pairing.latencySec);
+}
+
+void LiveSources::addPicturesTo(CLI::App& command)
+{
+  needsTracking_ = false;
+  addSourcesTo(command, false);
+}
+
+void LiveSources::addSourcesTo(CLI::App& command, bool isRequired)
 {
   CLI::Option_group* from = command.add_option_group("sources");
   from->add_option("--server", servers_, "OpenIGTLink server (PLUS, 3D Slicer, `handeye simulate`); may be given several times")
@@ -50,7 +62,6 @@ void LiveSources::addTo(CLI::App& command, bool isRequired)
   from->add_option("--replay", replay_, "Recording that is played as if it were live")->type_name("RECORDING");
   from->require_option(isRequired ? 1 : 0, 0);
   command.add_option("--speed", speed_, "Of the replay; 0 for as fast as possible")->check(CLI::NonNegativeNumber);
-  addLatencyOption(command, pairing.latencySec);
   command.add_option("--image", pairing.imageName, "Which video, where there are several; the first that comes otherwise")
     ->type_name("NAME");
   command.add_option("--wait", waitSec_, "How long a server or camera may be silent before this ends, s")
@@ -86,7 +97,9 @@ void LiveSources::start()
     devices::ReplayOptions options;
     options.recording = replay_;
     options.speed = speed_;
-    static_cast<void>(io::Recording::open(options.recording));  // one that cannot be read is said now
+    options.needsTracking = needsTracking_;
+    // One that cannot be read is said now.
+    static_cast<void>(needsTracking_ ? io::Recording::open(options.recording) : io::Recording::openImages(options.recording));
     add(std::make_unique<devices::ReplaySource>(options), false);
   }
   for (Entry& entry : entries_)

@@ -26,14 +26,18 @@ class LiveSources
 public:
   devices::FramePairingOptions pairing;  ///< with --latency in it
 
-  /// @param isRequired one of them is needed
-  void addTo(CLI::App& command, bool isRequired = true);
+  void addTo(CLI::App& command);
+  /// For pictures alone: no latency, a replay needs no tracking, and no source is needed.
+  void addPicturesTo(CLI::App& command);
 
   /// One of them was given.
   bool isAskedFor() const { return !servers_.empty() || !video_.empty() || !replay_.empty(); }
 
   void start();
   void stop();
+
+  /// How long one may be silent, s.
+  double waitSec() const { return waitSec_; }
 
   /// The next sample of any of them.
   std::optional<devices::DeviceSample> pop(double timeoutSec);
@@ -61,6 +65,7 @@ private:
   std::vector<std::string> servers_;
   std::string video_, replay_;
   double speed_ = 1, waitSec_ = 10;
+  bool needsTracking_ = true;
   struct Entry
   {
     std::unique_ptr<devices::Source> source;
@@ -70,6 +75,7 @@ private:
     devices::ClockOffset offset;
   };
 
+  void addSourcesTo(CLI::App& command, bool isRequired);
   void add(std::unique_ptr<devices::Source> source, bool isLive);
   static std::string problemOf(const Entry& entry);
 

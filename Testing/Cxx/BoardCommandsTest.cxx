@@ -193,23 +193,28 @@ TEST_F(BoardCommands, CameraCalibrate_WritesTheLens)
   EXPECT_FALSE(std::filesystem::exists(file("other.yml")));
 }
 
-TEST_F(BoardCommands, CameraCalibrate_FromLiveVideo_TakesViewsAndKeepsTheirPictures)
+TEST_F(BoardCommands, CameraCalibrate_FromLiveVideo_TakesViewsAndStoresTheirPictures)
 {
   // As if live, so slowly that a busy machine sees each picture; each board stands still for one of them only.
   const std::vector<std::string> live{ "camera", "calibrate", "--replay", file("board"), "--speed", "0.2", "--still-frames", "1",
-    "--board", Board, "--model", "4", "--keep", file("kept"), "--json", "-o", file("live.yml") };
+    "--board", Board, "--model", "4", "--store-pictures", file("stored"), "--json", "-o", file("live.yml") };
   const CommandResult result = run(live);
   ASSERT_EQ(result.exitCode, 0) << result.err;
   const json object = result.json();
   EXPECT_NEAR(object["camera"]["cameraMatrix"][0][0].get<double>(), 450, 2);
   EXPECT_NE(result.err.find("view 1 taken"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("of the image covered. Hold"), std::string::npos) << "what to do next: " << result.err;
-  // The pictures that were kept give the same lens.
-  const CommandResult again = run({ "camera", "calibrate", file("kept"), "--board", Board, "--model", "4", "--all", "--json" });
+  EXPECT_EQ(object["sources"].size(), 1U);
+  // The pictures that were stored give the same lens, whichever way they are read.
+  const CommandResult again = run({ "camera", "calibrate", file("stored"), "--board", Board, "--model", "4", "--all", "--json" });
   ASSERT_EQ(again.exitCode, 0) << again.err;
   EXPECT_EQ(again.json()["views"].size(), object["views"].size());
   EXPECT_NEAR(
     again.json()["camera"]["cameraMatrix"][0][0].get<double>(), object["camera"]["cameraMatrix"][0][0].get<double>(), 1e-6);
+  const CommandResult played = run({ "camera", "calibrate", "--replay", file("stored"), "--speed", "3", "--still-frames", "1",
+    "--board", Board, "--model", "4", "--json" });
+  ASSERT_EQ(played.exitCode, 0) << played.err;
+  EXPECT_NEAR(played.json()["camera"]["cameraMatrix"][0][0].get<double>(), 450, 2) << "a replay without tracking";
   // They are not replaced.
   const CommandResult second = run(live);
   EXPECT_EQ(second.exitCode, 2);
@@ -223,6 +228,9 @@ TEST_F(BoardCommands, CameraCalibrate_FromLiveVideo_TakesViewsAndKeepsTheirPictu
   for (const std::vector<std::string>& wrong : { std::vector<std::string>{ "camera", "calibrate", "--board", Board },
          { "camera", "calibrate", file("board"), "--replay", file("board"), "--board", Board },
          { "camera", "calibrate", "--replay", file("board"), "--all", "--board", Board },
+         { "camera", "calibrate", file("board"), "--store-pictures", file("other"), "--board", Board },
+         { "camera", "calibrate", file("board"), "--seconds", "3", "--board", Board },
+         { "camera", "calibrate", "--replay", file("board"), "--store-pictures", file("camera.yml"), "--board", Board },
          { "camera", "calibrate", "--video", file("nothing.mp4"), "--board", Board } })
   {
     EXPECT_EQ(run(wrong).exitCode, 2) << wrong.back();
