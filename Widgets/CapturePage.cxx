@@ -78,7 +78,10 @@ CapturePage::~CapturePage() = default;
 
 void CapturePage::enter()
 {
-  workbench_.capture().setHandsFree(ui_->handsFreeBox->isChecked());
+  if (ui_->handsFreeBox->isChecked())
+  {
+    workbench_.capture().beginHandsFree();
+  }
   showSamples();
   showCalibration();
 }

@@ -14,6 +14,7 @@ namespace
 {
 
 const char* const DeletedDocument = "deleted";
+constexpr int BeginMs = 2000;
 
 bool isSameColor(const BallColor& a, const BallColor& b)
 {
@@ -39,6 +40,9 @@ CaptureTask::CaptureTask(WorkThread& work, QObject* parent)
   , thread_(work)
   , work_(std::make_shared<Work>())
 {
+  begin_.setSingleShot(true);
+  begin_.setInterval(BeginMs);
+  connect(&begin_, &QTimer::timeout, this, [this] { setHandsFree(true); });
 }
 
 CaptureTask::~CaptureTask() = default;
@@ -209,8 +213,17 @@ void CaptureTask::endEvaluation(bool isGood)
   emit samplesChanged();
 }
 
+void CaptureTask::beginHandsFree()
+{
+  if (!isHandsFree_)
+  {
+    begin_.start();
+  }
+}
+
 void CaptureTask::setHandsFree(bool isHandsFree)
 {
+  begin_.stop();
   isHandsFree_ = isHandsFree;
   if (!isHandsFree)
   {

@@ -13,6 +13,7 @@
 #include <QMap>
 #include <QObject>
 #include <QString>
+#include <QTimer>
 #include <QStringList>
 #include <QVector>
 
@@ -76,6 +77,8 @@ public:
   const std::optional<CaptureInputs>& inputs() const { return inputs_; }
 
   void setHandsFree(bool isHandsFree);
+  /// The same in two seconds: who passes through a page takes nothing.
+  void beginHandsFree();
   bool isHandsFree() const { return isHandsFree_; }
   /// The next frame becomes a sample, if there is a ball in it and the tracker sees both tools.
   void takeNow();
@@ -138,6 +141,7 @@ private:
   QMap<int, CaptureSample> samples_;
   QString folder_, hint_;
   bool isOpen_ = false, isHandsFree_ = false, isBusy_ = false;
+  QTimer begin_;  ///< of hands-free taking
   std::atomic<int> session_{ 0 };  ///< counts the folders that were opened or let go of
   int evaluations_ = 0;            ///< under way, after inputs were changed
   bool isBroken_ = false;          ///< the last one failed

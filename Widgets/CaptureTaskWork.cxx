@@ -5,6 +5,7 @@
 #include "ImageConversion.h"
 #include "JsonEigen.h"
 #include "SessionCapture.h"
+#include "TimedPose.h"
 #include "WorkThread.h"
 
 #include <stdexcept>
@@ -192,6 +193,7 @@ void CaptureTask::take(Work& work, const devices::PairedFrame& frame)
 void CaptureTask::readRecording(Work& work, const std::string& path, const ToolNames& tools)
 {
   const io::Recording recording = io::Recording::open(path);
+  (void)latencyNotes(recording, tools.latencySec);  // refuses poses that are too far apart for one
   const CameraModel camera = cameraForRecording(work.inputs->camera, recording);
   const BallDetector detector(camera, work.inputs->ballRadiusMm, work.inputs->detection);
   int taken = 0, refused = 0;

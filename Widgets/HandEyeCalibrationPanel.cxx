@@ -260,14 +260,20 @@ void HandEyeCalibrationPanel::Private::showMessage(const QString& text, handeye:
 
 void HandEyeCalibrationPanel::Private::refresh()
 {
+  const auto isDoubtful = [this](WizardStep each)
+  {
+    const handeye::Level level = workbench->levelOf(each);
+    return level == handeye::Level::Warning || level == handeye::Level::Error;
+  };
   for (int i = 0; i < handeye::WizardStepCount; ++i)
   {
     const WizardStep each = WizardStep(i);
     const QString missing = workbench->missingFor(each), problem = workbench->problemOf(each);
     steps->setState(each,
-      !missing.isEmpty()          ? WizardStepBar::State::Blocked
-        : workbench->isDone(each) ? WizardStepBar::State::Done
-                                  : WizardStepBar::State::Open,
+      !missing.isEmpty()           ? WizardStepBar::State::Blocked
+        : !workbench->isDone(each) ? WizardStepBar::State::Open
+        : isDoubtful(each)         ? WizardStepBar::State::Doubtful
+                                   : WizardStepBar::State::Done,
       missing.isEmpty() ? problem : missing);
   }
   currentPage().refresh();

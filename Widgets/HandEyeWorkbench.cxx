@@ -7,6 +7,7 @@
 #include "ResultFiles.h"
 #include "WorkThread.h"
 
+#include <cmath>
 #include <utility>
 
 namespace handeye
@@ -90,7 +91,8 @@ void HandEyeWorkbench::connectTasks()
   connect(latency_, &LatencyTask::measured, this,
     [this](const TemporalCalibrationResult& result)
     {
-      devices_->setLatency(result.latencySec);
+      // As it is shown: to 0.1 ms.
+      devices_->setLatency(std::round(1e4 * result.latencySec) / 1e4);
       storeDevices();
       updateInputs();
       emit latencyChanged(QString::fromStdString(result.message));

@@ -159,9 +159,10 @@ void HandEyeWorkbench::takeDocuments(const std::map<std::string, json>& document
     setup.phantomToTracker = text(devices, "phantomToTracker", setup.phantomToTracker);
     setup.image = text(devices, "image", setup.image);
     setup.rightImage = text(devices, "rightImage", setup.rightImage);
-    setup.latencySec = number(devices, "latencySec", setup.latencySec);
     devices_->setNames(setup);
   }
+  // It belongs to the samples as well, whatever is connected.
+  devices_->setLatency(number(devices, "latencySec", devices_->setup().latencySec));
   restoreFiles(documents);
   emit ballChanged();
   emit sessionOpened();

@@ -133,6 +133,12 @@ void LandmarkPanel::setTipAvailable(bool available, const QString& reason)
 void LandmarkPanel::setResult(const std::optional<LandmarkRegistrationResult>& result)
 {
   d->result = result;
+  // The one to be touched again is at hand.
+  const QVector<int> touched = this->pairs().landmarks;
+  if (result && !result->isUsable() && d->current < 0 && result->worst >= 0 && result->worst < touched.size())
+  {
+    this->setCurrentLandmark(touched[result->worst]);
+  }
   d->update();
 }
 

@@ -82,7 +82,7 @@ simulation::RoomOptions SimulatedRoomServer::optionsOf(RoomScene scene) const
       break;
     case RoomScene::Landmarks:
       options.motion = room_.landmarks_Model.empty() ? simulation::RoomMotion::Free : simulation::RoomMotion::Landmarks;
-      options.holdSec = 4;  // until it is taken: the next landmark is begun with then
+      options.holdSec = 3600;  // until it is taken: the next landmark is begun with then
       break;
     case RoomScene::Free:
       options.motion = simulation::RoomMotion::Free;

@@ -63,7 +63,10 @@ ValidationPage::~ValidationPage() = default;
 
 void ValidationPage::enter()
 {
-  workbench_.validationCapture().setHandsFree(ui_->handsFreeBox->isChecked() && workbench_.missingFor(step()).isEmpty());
+  if (ui_->handsFreeBox->isChecked() && workbench_.missingFor(step()).isEmpty())
+  {
+    workbench_.validationCapture().beginHandsFree();
+  }
   showValidation();
 }
 

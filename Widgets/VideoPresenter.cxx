@@ -15,6 +15,7 @@ namespace
 {
 
 constexpr int OutlinePoints = 64;
+constexpr int SilenceMs = 2500;
 
 QPointF toPoint(const Eigen::Vector2d& point_Image)
 {
@@ -58,6 +59,22 @@ VideoPresenter::VideoPresenter(HandEyeWorkbench& workbench, VideoView& view, QOb
     });
   connect(&workbench_.capture(), &CaptureTask::accepted, &view_, &VideoView::flash);
   connect(&workbench_.validationCapture(), &CaptureTask::accepted, &view_, &VideoView::flash);
+  // A picture that stands still looks live, and is not.
+  silence_.setSingleShot(true);
+  silence_.setInterval(SilenceMs);
+  connect(
+    &silence_, &QTimer::timeout, this, [this] { view_.setBanner(tr("No new picture arrives: this one is old."), Level::Error); });
+  connect(&workbench_.devices(), &DeviceHub::connectionChanged, this,
+    [this]
+    {
+      if (!workbench_.devices().isConnected())
+      {
+        silence_.stop();
+        view_.setFrame({});
+        view_.setDetection({});
+        view_.setBanner({}, Level::Info);
+      }
+    });
   catchUp_.setSingleShot(true);
   connect(&catchUp_, &QTimer::timeout, this, &VideoPresenter::showFrame);
   view_.setPlaceholderText(tr("No video. Connect devices on the page Devices."));
@@ -95,6 +112,7 @@ void VideoPresenter::showFrame()
     return;
   }
   catchUp_.stop();
+  silence_.start();
   sinceShown_.start();
   QTimer::singleShot(0, this, [this] { costMs_ = sinceShown_.elapsed(); });
   try

@@ -36,6 +36,7 @@ private:
   QElapsedTimer sinceShown_;
   qint64 costMs_ = 0;  ///< of the last frame, drawing included
   QTimer catchUp_;     ///< runs while a frame was left out that may be the last
+  QTimer silence_;     ///< ends when no frame has come for a while
   bool hasLens_ = false;
 };
 

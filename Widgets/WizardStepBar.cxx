@@ -22,6 +22,8 @@ QString stateWord(WizardStepBar::State state)
   {
     case WizardStepBar::State::Done:
       return WizardStepBar::tr("done");
+    case WizardStepBar::State::Doubtful:
+      return WizardStepBar::tr("done, but look at its verdict");
     case WizardStepBar::State::Open:
       return WizardStepBar::tr("open");
     case WizardStepBar::State::Blocked:
@@ -36,6 +38,8 @@ QIcon stateIcon(WizardStepBar::State state)
   {
     case WizardStepBar::State::Done:
       return icon(QStringLiteral("step-done"));
+    case WizardStepBar::State::Doubtful:
+      return icon(QStringLiteral("step-doubtful"));
     case WizardStepBar::State::Open:
       return icon(QStringLiteral("step-open"));
     case WizardStepBar::State::Blocked:

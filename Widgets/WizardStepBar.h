@@ -22,6 +22,7 @@ public:
   enum class State
   {
     Done,
+    Doubtful,  ///< done, and to be looked at
     Open,
     Blocked
   };

@@ -158,8 +158,7 @@ void say(const Eye& eye, std::size_t count, const HandEyeGuidanceOptions& option
     guidance.message = "hold the ball at " + where;
     return;
   }
-  const std::string change = "the largest predicted error from " + fixedDigits(guidance.maximumPx, 2) + " to " +
-    fixedDigits(guidance.maximumAfterPx, 2) + " px (" + fixedDigits(100 * guidance.gain, 0) + " %)";
+  const std::string change = "the largest predicted error by " + fixedDigits(100 * guidance.gain, 0) + " %";
   guidance.message = guidance.isWorthwhile() ? "hold the ball at " + where + ": lowers " + change
                                              : "another sample is hardly worth while (less than " +
       fixedDigits(100 * options.minimumGain, 0) + " %): the best one, at " + where + ", would lower " + change;

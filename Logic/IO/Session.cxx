@@ -284,10 +284,11 @@ int Session::addSample(const cv::Mat& image, SessionSample sample)
   {
     throw std::invalid_argument("an image of 8 or 16 bits is expected for a session's sample");
   }
-  if (const std::optional<double> latency = latencySec(); latency && *latency != latencyOf(sample))
+  if (!fitsLatency(latencyOf(sample)))
   {
-    throw std::invalid_argument("the session's samples have a latency of " + formatDouble(1000 * *latency) + " ms, this one of " +
-      formatDouble(1000 * latencyOf(sample)) + " ms: all have the same, or a new session is begun");
+    const auto inMs = [](double sec) { return formatDouble(std::round(1e4 * sec) / 10) + " ms"; };
+    throw std::invalid_argument("the session's samples have a latency of " + inMs(*latencySec()) + ", this one of " +
+      inMs(latencyOf(sample)) + ": set the latency to " + inMs(*latencySec()) + ", or begin a new session");
   }
   sample.id = nextId_;
   const Path imagePath = folder_ / "frames" / (frameDigits(sample.id) + ".png");
@@ -386,6 +387,12 @@ std::vector<std::string> Session::documentNames() const
     names.push_back(document.first);
   }
   return names;
+}
+
+bool Session::fitsLatency(double sec) const
+{
+  constexpr double toleranceSec = 1.01e-4;
+  return std::abs(latencySec().value_or(sec) - sec) <= toleranceSec;
 }
 
 std::optional<double> Session::latencySec() const

@@ -81,6 +81,9 @@ public:
   /// The latency that the samples' poses have been taken at (`latencySec` of their pairing); nothing without samples. All have
   /// the same: addSample() refuses others.
   std::optional<double> latencySec() const;
+  /// Whether poses that were taken at this latency go together with the samples: there are none, or theirs is the same to 0.1 ms,
+  /// which is less than can be measured, and in which a hand moves a few hundredths of a mm.
+  bool fitsLatency(double latencySec) const;
   /// The image of a sample. @throws FileError
   cv::Mat image(int id) const;
 

@@ -118,7 +118,7 @@ int runCapture(CaptureArguments& arguments)
   const Eigen::Vector3d tip_Stylus = readStylusTip(arguments.stylus);
   io::Session session = io::Session::openOrCreate(arguments.session);
   const double latencySec = arguments.sources.pairing.latencySec;
-  if (session.latencySec().value_or(latencySec) != latencySec)
+  if (!session.fitsLatency(latencySec))
   {
     throw io::FileError(arguments.session,
       format("its samples have a latency of %.1f ms and --latency is %.1f ms; all have the same, or a new session is begun",
