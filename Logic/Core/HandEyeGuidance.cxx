@@ -27,6 +27,10 @@ constexpr double PriorShiftMm = 1000;
 /// The mean error decides between places that lower the largest one alike.
 constexpr double ShareOfMean = 0.2;
 
+/// A ball needs so many of its radii to the border: it is an ellipse there, and a hand is not exact.
+constexpr double BallReach = 1.25;
+constexpr double LargestBorder = 0.45;
+
 struct Place
 {
   Eigen::Vector2d pixel;
@@ -53,18 +57,22 @@ bool look(const Eye& eye, const HandEyeGuidanceOptions& options, const Eigen::Ve
   return true;
 }
 
-/// Places on a grid over the image, `border` of its size away from its edges, and over the depths.
+/// Places on a grid over the image, `border` of its size away from its edges and further where a ball of this radius would reach
+/// beyond them, and over the depths.
 std::vector<Place> gridOfPlaces(
-  const Eye& eye, const HandEyeGuidanceOptions& options, int columns, int rows, int depths, double border)
+  const Eye& eye, const HandEyeGuidanceOptions& options, int columns, int rows, int depths, double border, double ballRadiusMm = 0)
 {
   const double width = eye.camera.hasImageSize() ? eye.camera.width() : 2 * eye.camera.cx() + 1;
   const double height = eye.camera.hasImageSize() ? eye.camera.height() : 2 * eye.camera.cy() + 1;
   std::vector<Place> places;
   for (int k = 0; k < columns * rows * depths; ++k)
   {
-    const double across = border + (1 - 2 * border) * (k % columns) / (columns - 1);
-    const double down = border + (1 - 2 * border) * (k / columns % rows) / (rows - 1);
     const double depth = options.nearestMm + (options.furthestMm - options.nearestMm) * (k / columns / rows) / (depths - 1);
+    const double reachPx = BallReach * ballRadiusMm / depth * std::max(eye.camera.fx(), eye.camera.fy());
+    const double beside = std::min(LargestBorder, std::max(border, reachPx / width));
+    const double above = std::min(LargestBorder, std::max(border, reachPx / height));
+    const double across = beside + (1 - 2 * beside) * (k % columns) / (columns - 1);
+    const double down = above + (1 - 2 * above) * (k / columns % rows) / (rows - 1);
     const auto point_Camera = pointSeenAt(eye, { across * (width - 1), down * (height - 1) }, depth);
     Place place;
     if (point_Camera && look(eye, options, *point_Camera, place))
@@ -170,11 +178,11 @@ void HandEyeGuidanceOptions::check() const
 {
   const bool depths = nearestMm > 0 && furthestMm > nearestMm && std::isfinite(furthestMm);
   const bool noise = trackingSigmaMm >= 0 && segmentationSigmaPx >= 0 && trackingSigmaMm + segmentationSigmaPx > 0;
-  if (!depths || !noise || !(borderShare >= 0 && borderShare < 0.5) || !(separationMm >= 0) || !(minimumGain >= 0))
+  if (!depths || !noise || !(borderShare >= 0 && borderShare < 0.5) || !(ballRadiusMm >= 0 && ballRadiusMm < nearestMm) || !(separationMm >= 0) || !(minimumGain >= 0))
   {
     throw std::invalid_argument(
       "guidance options: two depths, the nearer first, noise of at least 0, a border below half the image, "
-      "a separation and a gain of at least 0 are expected");
+      "a ball that is smaller than the nearest depth, a separation and a gain of at least 0 are expected");
   }
 }
 
@@ -188,7 +196,7 @@ HandEyeGuidance suggestPlacement(
   const bool canPredict = balls_Camera.size() >= EnoughToPredict;
   HandEyeGuidance guidance;
   double best = std::numeric_limits<double>::infinity();
-  for (const Place& place : gridOfPlaces(eye, options, 9, 7, 5, options.borderShare))
+  for (const Place& place : gridOfPlaces(eye, options, 9, 7, 5, options.borderShare, options.ballRadiusMm))
   {
     const bool isTaken = std::any_of(balls_Camera.begin(), balls_Camera.end(),
       [&](const Eigen::Vector3d& ball) { return (ball - place.point_Camera).norm() < options.separationMm; });

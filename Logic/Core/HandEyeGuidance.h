@@ -18,8 +18,10 @@ struct HandEyeGuidanceOptions
   double furthestMm = 700;
   double trackingSigmaMm = 0.35;
   double segmentationSigmaPx = 0.25;
-  /// Of the image's width and height that stays free at each border, so that the whole ball is seen.
+  /// Of the image's width and height that stays free at each border.
   double borderShare = 0.1;
+  /// Of a near ball more stays free, so that all of it is seen; 0: its size is not known.
+  double ballRadiusMm = 0;
   /// Two placements are at least this far apart.
   double separationMm = 15;
   /// A further sample that lowers the largest predicted error by less than this share is not worth while.

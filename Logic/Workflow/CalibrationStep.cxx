@@ -98,6 +98,7 @@ void addGuidance(CalibrationStepResult& result, const HandEyeCalibrationOptions&
   }
   const std::vector<Eigen::Vector3d> places = ballPlaces(result);
   HandEyeGuidanceOptions guidance;
+  guidance.ballRadiusMm = result.ballRadiusMm;
   guidance.trackingSigmaMm = options.trackingSigmaMm;
   guidance.segmentationSigmaPx = options.segmentationSigmaPx;
   if (result.calibration.isUsable())

@@ -5,6 +5,7 @@
 #include "GeometryMatchers.h"
 #include "HandEyePrediction.h"
 #include "RegistrationProblems.h"
+#include "SphereCone.h"
 
 #include <gtest/gtest.h>
 
@@ -65,6 +66,32 @@ TEST(HandEyeGuidance, Placements_AreInsideTheImageAndTheDepths)
         EXPECT_GE((earlier - next.ball_Camera).norm(), 15);
       }
       places.push_back(next.ball_Camera);
+    }
+  }
+}
+
+TEST(HandEyeGuidance, NearBalls_AreSeenWhole)
+{
+  constexpr double ballRadiusMm = 15;
+  for (const EvaluationCamera& view : evaluationCameras())
+  {
+    HandEyeGuidanceOptions options = optionsOf(view);
+    options.ballRadiusMm = ballRadiusMm;
+    Places places;
+    for (int i = 0; i < 15; ++i)
+    {
+      const HandEyeGuidance next = suggestPlacement(places, { view.camera }, options);
+      ASSERT_NE(next.status, HandEyeGuidance::Status::NoPlace);
+      places.push_back(next.ball_Camera);
+      const double distance = next.ball_Camera.norm();
+      const SphereCone cone{ next.ball_Camera / distance, std::asin(ballRadiusMm / distance) };
+      for (const Eigen::Vector2d& point : cone.outline(view.camera, 90).points_Image)
+      {
+        EXPECT_GE(point.x(), 0) << next.message;
+        EXPECT_GE(point.y(), 0) << next.message;
+        EXPECT_LE(point.x(), view.camera.width() - 1) << next.message;
+        EXPECT_LE(point.y(), view.camera.height() - 1) << next.message;
+      }
     }
   }
 }
