@@ -174,7 +174,7 @@ std::optional<Plot> errorDirections(const ValidationStepResult& validation)
   }
   series.label = "frames";
   std::optional<Plot> plot =
-    plotOf({ series }, "Which way the projected ball lies from the segmented one", "to the right (px)", "upwards (px)");
+    plotOf({ series }, "Where the projected centre lies, seen from the segmented one", "to the right (px)", "upwards (px)");
   if (plot)
   {
     plot->width = plot->height = 720;
