@@ -102,8 +102,7 @@ void addSeries(vtkChartXY* chart, const PlotSeries& series, vtkTable* table)
   {
     return;
   }
-  const int markers[] = { vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND, vtkPlotPoints::PLUS,
-    vtkPlotPoints::CROSS };
+  const int markers[] = { vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND, vtkPlotPoints::PLUS };
   const bool isLine = series.style == PlotSeries::Style::LineAndDots && table->GetNumberOfRows() > 1;
   auto* points = vtkPlotPoints::SafeDownCast(chart->AddPlot(isLine ? vtkChart::LINE : vtkChart::POINTS));
   points->SetInputData(table, 0, 1);
@@ -111,7 +110,7 @@ void addSeries(vtkChartXY* chart, const PlotSeries& series, vtkTable* table)
   points->SetColor(series.color[0], series.color[1], series.color[2], 255);
   points->SetWidth(isLine ? 2.5F : 1.5F);
   points->GetPen()->SetLineType(isLine && series.isDashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
-  points->SetMarkerStyle(markers[series.marker % 5]);
+  points->SetMarkerStyle(markers[series.marker % 4]);
   points->SetMarkerSize(isLine ? 9.0F : 11.0F);
 }
 
