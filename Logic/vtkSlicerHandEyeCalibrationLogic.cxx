@@ -307,7 +307,8 @@ bool vtkSlicerHandEyeCalibrationLogic::Validate(const std::string& recording)
       {
         return { false, stoppedAfter(frames.size(), opened) };
       }
-      const handeye::ValidationStepResult result = handeye::validateCapture(frames, camera, stored.markerToCamera);
+      handeye::ValidationStepResult result = handeye::validateCapture(frames, camera, stored.markerToCamera);
+      result.subject.ballRadiusMm = stored.ballRadiusMm;
       if (result.isUsable())
       {
         this->Internal->Validation = { result, recording };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ComparisonPage.h"
 
+#include "ComparisonTable.h"
 #include "ErrorDistancePlot.h"
 #include "Look.h"
 #include "ReportPlots.h"
@@ -21,13 +22,15 @@ namespace handeye
 namespace
 {
 
-/// What the report draws, for the window; the series in the order of the methods, so that each keeps its mark.
+/// What the report draws, for the window.
 QVector<ErrorSeries> seriesOf(const ComparisonResult& result, const std::optional<report::Plot>& plot)
 {
   QVector<ErrorSeries> all;
-  for (const MethodResult& method : result.methods)
+  for (std::size_t index = 0; index < result.methods.size(); ++index)
   {
+    const MethodResult& method = result.methods[index];
     ErrorSeries series;
+    series.look = lookOfMethod(result, index);
     series.name = QString::fromStdString(method.name);
     series.errorPx = method.errorPx;
     for (const report::PlotSeries& drawn : plot ? plot->series : std::vector<report::PlotSeries>())

@@ -4,6 +4,7 @@
 
 #include "ErrorDistancePlot.h"
 #include "Look.h"
+#include "ReportPlots.h"
 
 #include <QApplication>
 #include <QClipboard>
@@ -25,7 +26,7 @@ bool contains(const std::vector<int>& indices, int index)
   return std::find(indices.begin(), indices.end(), index) != indices.end();
 }
 
-/// How many errors there are, and how many there would be without failures.
+/// How many samples have an error, and how many there would be without failures.
 QString countText(const MethodResult& method)
 {
   const int all = method.successShare > 0 ? int(std::lround(method.errorPx.count / method.successShare)) : method.errorPx.count;
@@ -48,6 +49,12 @@ QString toolTipOf(const MethodResult& method)
 
 }  // namespace
 
+SeriesLook lookOfMethod(const ComparisonResult& result, std::size_t index)
+{
+  const report::MethodLook look = report::lookOf(result.methods, index);
+  return { look.color, look.marker, look.isDashed };
+}
+
 std::vector<int> comparisonOrder(const ComparisonResult& result)
 {
   std::vector<int> order = result.ranking;
@@ -66,7 +73,7 @@ ComparisonTable::ComparisonTable(QWidget* parent)
 {
   this->setAccessibleName(tr("Projection errors of the methods"));
   this->setHorizontalHeaderLabels(
-    { tr("Method"), tr("Mean\n[px]"), tr("Std\n[px]"), tr("Min\n[px]"), tr("Max\n[px]"), tr("Errors") });
+    { tr("Method"), tr("Mean\n[px]"), tr("Std\n[px]"), tr("Min\n[px]"), tr("Max\n[px]"), tr("Samples") });
   this->verticalHeader()->hide();
   this->horizontalHeader()->setSectionResizeMode(QHeaderView::Fixed);
   this->horizontalHeader()->setSectionResizeMode(Name, QHeaderView::Stretch);
@@ -98,8 +105,10 @@ void ComparisonTable::addMethod(const ComparisonResult& result, int index)
   // The mark of the plots, and how it stands: in words for those who do not see it.
   const bool isAlike = contains(result.notToldApart, index), isApart = contains(result.incomplete, index);
   const QString sign = isAlike ? QStringLiteral(" \u2248") : isApart ? QStringLiteral(" \u26a0") : QString();
-  auto* name = new QLabel(ErrorDistancePlot::markOf(index, this->palette()) + QStringLiteral("&nbsp;") +
-    QString::fromStdString(method.name).toHtmlEscaped() + sign);
+  const QString mark = method.isUsable()
+    ? ErrorDistancePlot::markOf(lookOfMethod(result, std::size_t(index)), this->palette()) + QStringLiteral("&nbsp;")
+    : QString();
+  auto* name = new QLabel(mark + QString::fromStdString(method.name).toHtmlEscaped() + sign);
   name->setContentsMargins(4, 0, 4, 0);
   name->setToolTip(toolTipOf(method));
   this->setCellWidget(row, Name, name);
@@ -124,7 +133,7 @@ void ComparisonTable::addMethod(const ComparisonResult& result, int index)
     put(Count, countText(method));
     return;
   }
-  put(Mean, QString::fromStdString(method.status + ": " + method.message));
+  put(Mean, QString::fromStdString(statusWords(method.status) + ": " + method.message));
   this->item(row, Mean)->setTextAlignment(int(Qt::AlignLeft | Qt::AlignVCenter));
   this->setSpan(row, Mean, 1, ColumnCount - Mean);
 }
@@ -162,7 +171,7 @@ void ComparisonTable::fitReasons()
 
 QString ComparisonTable::toText() const
 {
-  QStringList lines{ tr("Method\tStanding\tMean [px]\tStd [px]\tMin [px]\tMax [px]\tErrors") };
+  QStringList lines{ tr("Method\tStanding\tMean [px]\tStd [px]\tMin [px]\tMax [px]\tSamples") };
   for (int row = 0; row < this->rowCount(); ++row)
   {
     const QTableWidgetItem* name = this->item(row, Name);

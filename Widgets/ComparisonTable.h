@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "ErrorSeries.h"
 #include "MethodComparison.h"
 
 #include <QTableWidget>
@@ -9,8 +10,8 @@
 namespace handeye
 {
 
-/// The methods of a comparison: mean, standard deviation, minimum and maximum of their projection errors (px) and how many errors
-/// that is, the best first; behind them those that failed so often that their errors are of easy cases, and those that gave nothing,
+/// The methods of a comparison: mean, standard deviation, minimum and maximum of their projection errors (px) and of how many
+/// samples, the best first; behind them those that failed so often that their errors are of easy cases, and those that gave nothing,
 /// with the reason. Ctrl+C copies it with tabs.
 class ComparisonTable : public QTableWidget
 {
@@ -48,6 +49,9 @@ private:
 
   ComparisonResult result_;
 };
+
+/// The look of a method in plots and tables, which is that of the report.
+[[nodiscard]] SeriesLook lookOfMethod(const ComparisonResult& result, std::size_t index);
 
 /// The methods in the order in which a comparison is shown: ranked, ranked apart, failed.
 [[nodiscard]] std::vector<int> comparisonOrder(const ComparisonResult& result);

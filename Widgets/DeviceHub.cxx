@@ -322,8 +322,10 @@ void DeviceHub::poll()
       source.status.state == devices::SourceState::Streaming || source.status.state == devices::SourceState::Finished;
     if (!isThere || source.status.state == devices::SourceState::Finished || source.status.streams.empty())
     {
-      status_ += (status_.isEmpty() ? QString() : QStringLiteral(" ")) + sourceName + QStringLiteral(": ") +
-        QString::fromStdString(source.status.message) + QLatin1Char('.');
+      const QString message = QString::fromStdString(source.status.message);
+      const bool isNamed = message.contains(sourceName);  // by the source itself
+      status_ += (status_.isEmpty() ? QString() : QStringLiteral(" ")) + (isNamed ? QString() : sourceName + QStringLiteral(": ")) +
+        message + QLatin1Char('.');
     }
     for (const devices::StreamInfo& info : source.status.streams)
     {

@@ -71,11 +71,16 @@ struct Marker
   char16_t sign;
 };
 constexpr Marker Markers[] = { { vtkPlotPoints::CIRCLE, u'\u25cf' }, { vtkPlotPoints::SQUARE, u'\u25a0' },
-  { vtkPlotPoints::DIAMOND, u'\u25c6' }, { vtkPlotPoints::CROSS, u'\u2715' }, { vtkPlotPoints::PLUS, u'\u271a' } };
+  { vtkPlotPoints::DIAMOND, u'\u25c6' }, { vtkPlotPoints::PLUS, u'\u271a' } };
 
-const Marker& markerOf(int index)
+const Marker& markerOf(const SeriesLook& look)
 {
-  return Markers[std::size_t(index) % std::size(Markers)];
+  return Markers[std::size_t(look.marker) % std::size(Markers)];
+}
+
+SeriesLook lookOf(const ErrorSeries& one, int index)
+{
+  return one.look.value_or(SeriesLook{ index, index, false });
 }
 
 }  // namespace
@@ -155,10 +160,10 @@ void ErrorDistancePlot::setAxes(const ErrorPlotAxes& axes)
   d->canvas->update();
 }
 
-QString ErrorDistancePlot::markOf(int index, const QPalette& palette)
+QString ErrorDistancePlot::markOf(const SeriesLook& look, const QPalette& palette)
 {
   return QStringLiteral("<span style=\"color:%1\">%2</span>")
-    .arg(seriesColor(index, palette).name(), QString(QChar(markerOf(index).sign)));
+    .arg(seriesColor(look.color, palette).name(), QString(QChar(markerOf(look).sign)));
 }
 
 const QVector<ErrorSeries>& ErrorDistancePlot::series() const
@@ -208,7 +213,8 @@ void ErrorDistancePlot::Private::build(const ErrorDistancePlot& plot)
 
 void ErrorDistancePlot::Private::addSeries(const ErrorSeries& one, int index, const QPalette& palette, const PlotRanges& ranges)
 {
-  const QColor color = one.color.isValid() ? one.color : seriesColor(index, palette);
+  const SeriesLook look = lookOf(one, index);
+  const QColor color = one.color.isValid() ? one.color : seriesColor(look.color, palette);
   if (one.errorPx.count > 0 && series.size() <= MostMeans && !axes.isLogarithmic)
   {
     vtkPlot* mean = chart->AddPlot(vtkChart::LINE);
@@ -224,10 +230,11 @@ void ErrorDistancePlot::Private::addSeries(const ErrorSeries& one, int index, co
     vtkPlotPoints::SafeDownCast(chart->AddPlot(axes.isJoined && one.points.size() > 1 ? vtkChart::LINE : vtkChart::POINTS));
   points->SetInputData(makeTable(one.points, "error", axes.isLogarithmic), 0, 1);
   points->SetLabel(one.name.toStdString());
-  points->SetMarkerStyle(markerOf(index).style);
+  points->SetMarkerStyle(markerOf(look).style);
   points->SetMarkerSize(9);
   points->GetPen()->SetColor(toVtk(color));
   points->GetPen()->SetWidth(1.5F);
+  points->GetPen()->SetLineType(axes.isJoined && look.isDashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
   points->GetBrush()->SetColor(toVtk(color, 200));
 }
 
@@ -288,12 +295,13 @@ void ErrorDistancePlot::Private::writeLegend(const QPalette& palette)
     {
       continue;
     }
-    const QColor color = one.color.isValid() ? one.color : seriesColor(index, palette);
+    const SeriesLook look = lookOf(one, index);
+    const QColor color = one.color.isValid() ? one.color : seriesColor(look.color, palette);
     const QString mean = one.errorPx.count > 0 && series.size() <= MostMeans
       ? ErrorDistancePlot::tr(" (mean %1)").arg(withUnit(one.errorPx.mean, 2, ErrorDistancePlot::tr("px")))
       : QString();
     entries += QStringLiteral("<span style=\"color:%1\">%2</span>&nbsp;%3%4")
-                 .arg(color.name(), QString(QChar(markerOf(index).sign)), one.name.toHtmlEscaped(), mean.toHtmlEscaped());
+                 .arg(color.name(), QString(QChar(markerOf(look).sign)), one.name.toHtmlEscaped(), mean.toHtmlEscaped());
   }
   legend->setText(entries.join(QStringLiteral(" &nbsp; &nbsp;")));
 }

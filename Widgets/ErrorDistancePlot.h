@@ -47,8 +47,8 @@ public:
   const QVector<ErrorSeries>& series() const;
   /// For errors against something else, such as the number of samples.
   void setAxes(const ErrorPlotAxes& axes);
-  /// The mark of the index-th series in its colour, as rich text.
-  static QString markOf(int index, const QPalette& palette);
+  /// The mark of a series in its colour, as rich text.
+  static QString markOf(const SeriesLook& look, const QPalette& palette);
   vtkChartXY* chart() const;
 
   QSize sizeHint() const override;

@@ -300,10 +300,19 @@ HandEyeCalibrationPanel::HandEyeCalibrationPanel(vtkSlicerHandEyeCalibrationLogi
   : QWidget(parent)
   , d(std::make_unique<Private>(*this, host))
 {
-  const auto shortcut = [this](const QKeySequence& keys, void (HandEyeCalibrationPanel::*slot)())
-  { connect(new QShortcut(keys, this, nullptr, nullptr, Qt::WidgetWithChildrenShortcut), &QShortcut::activated, this, slot); };
-  shortcut(QKeySequence(Qt::ALT + Qt::Key_Right), &HandEyeCalibrationPanel::goNext);
-  shortcut(QKeySequence(Qt::ALT + Qt::Key_Left), &HandEyeCalibrationPanel::goBack);
+  const auto shortcut = [this](const QKeySequence& keys, const QString& words, void (HandEyeCalibrationPanel::*slot)())
+  {
+    auto* made = new QShortcut(keys, this, nullptr, nullptr, Qt::WidgetWithChildrenShortcut);
+    made->setWhatsThis(words);
+    connect(made, &QShortcut::activated, this, slot);
+  };
+  shortcut(QKeySequence(Qt::ALT + Qt::Key_Right), tr("Next page of the wizard"), &HandEyeCalibrationPanel::goNext);
+  shortcut(QKeySequence(Qt::ALT + Qt::Key_Left), tr("Page before in the wizard"), &HandEyeCalibrationPanel::goBack);
+  // The pages and the video take these themselves.
+  this->setProperty("keysAndWhatTheyDo",
+    QStringList{ tr("Space") + QLatin1Char('\t') + tr("Take a sample (video)"),
+      tr("Space") + QLatin1Char('\t') + tr("Touch the landmark (list of landmarks)"),
+      tr("Backspace") + QLatin1Char('\t') + tr("Touch the landmark again (list of landmarks)") });
   d->workbench->openSession(HandEyeWorkbench::newSessionFolder());
   if (logic)
   {

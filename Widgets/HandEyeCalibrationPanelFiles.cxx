@@ -4,6 +4,8 @@
 #include "DevicesPage.h"
 #include "HandEyeCalibrationPanel.h"
 #include "HandEyeWorkbench.h"
+#include "LandmarkFiles.h"
+#include "LandmarkPanel.h"
 
 #include <QFileInfo>
 
@@ -110,6 +112,11 @@ bool HandEyeCalibrationPanel::openFile(const QString& path)
   else if (ending == QStringLiteral("json"))
   {
     openResult(path);
+  }
+  else if (ending == QStringLiteral("txt") && handeye::isLandmarkText(path.toStdString()))
+  {
+    goTo(WizardStep::Overlay);
+    page(WizardStep::Overlay)->findChild<handeye::LandmarkPanel*>()->loadModelLandmarks(path);
   }
   else if (cameras.contains(ending))
   {

@@ -140,7 +140,6 @@ void Socket::close()
 
 Socket Socket::connectTo(const std::string& host, int port, double timeoutSec, const WakeUp& wakeUp)
 {
-  const std::string where = host + ":" + std::to_string(port);
   const Addresses addresses = resolve(host, port, false);
   Socket made(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!made.isOpen())
@@ -152,7 +151,7 @@ Socket Socket::connectTo(const std::string& host, int port, double timeoutSec, c
   {
     if (errno != EINPROGRESS)
     {
-      throw ConnectionError(where + " does not answer (" + reason(errno) + ")");
+      throw ConnectionError("does not answer (" + reason(errno) + ")");
     }
     const Waited waited = waitFor(made.descriptor_, POLLOUT, timeoutSec, wakeUp);
     int error = 0;
@@ -160,7 +159,7 @@ Socket Socket::connectTo(const std::string& host, int port, double timeoutSec, c
     getsockopt(made.descriptor_, SOL_SOCKET, SO_ERROR, &error, &size);
     if (waited != Waited::Ready || error != 0)
     {
-      throw ConnectionError(where + " does not answer (" + reason(error != 0 ? error : ETIMEDOUT) + ")");
+      throw ConnectionError("does not answer (" + reason(error != 0 ? error : ETIMEDOUT) + ")");
     }
   }
   return made;

@@ -5,6 +5,7 @@
 #include "CameraFileFormats.h"
 #include "CameraTree.h"
 #include "FileError.h"
+#include "JsonWords.h"
 #include "NumberText.h"
 #include "TextFile.h"
 
@@ -44,7 +45,7 @@ nlohmann::json parseJson(const std::filesystem::path& path, const std::string& t
   }
   catch (const nlohmann::json::exception& exception)
   {
-    throw FileError(path, "not valid JSON (" + printable(exception.what()) + ")");
+    throw FileError(path, "this is " + jsonProblem(exception));
   }
 }
 

@@ -5,6 +5,7 @@
 #include "AtomicFile.h"
 #include "FileError.h"
 #include "ImageFile.h"
+#include "JsonWords.h"
 #include "NumberText.h"
 #include "SequenceMetafileWriter.h"
 #include "SessionJson.h"
@@ -186,7 +187,7 @@ Session Session::open(const Path& folder)
   }
   catch (const Json::exception& error)
   {
-    throw FileError(file, "this is no session (" + printable(error.what()) + ")");
+    throw FileError(file, "this is no session (" + jsonProblem(error) + ")");
   }
   if (schema != Schema)
   {
@@ -255,6 +256,10 @@ void Session::read()
     try
     {
       documents_[file.stem().string()] = Json::parse(readWholeFile(file, LargestDocument));
+    }
+    catch (const Json::exception& error)
+    {
+      problems_.push_back(file.string() + ": the document cannot be read (" + jsonProblem(error) + ")");
     }
     catch (const std::exception& error)
     {

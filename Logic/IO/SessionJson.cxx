@@ -3,6 +3,7 @@
 #include "SessionJson.h"
 
 #include "FileError.h"
+#include "JsonWords.h"
 #include "NumberText.h"
 #include "TextFile.h"
 
@@ -104,7 +105,7 @@ StoredSample parseSample(const std::filesystem::path& path, int id)
   }
   catch (const Json::exception& error)
   {
-    throw FileError(path, "this is no sample of a session (" + printable(error.what()) + ")");
+    throw FileError(path, "this is no sample of a session (" + jsonProblem(error) + ")");
   }
 }
 

@@ -79,8 +79,8 @@ struct ReportDocument
 /// @param folder made if it is not there
 /// @throws io::FileError where something cannot be written; std::invalid_argument for a table whose rows are not as long as its
 ///         headings or an empty picture; std::logic_error where there is a QCoreApplication without windows
-/// The PDF is laid out by Qt: where there is no QGuiApplication, one without a display is made, for good. To be called from the
-/// thread that has it.
+/// The PDF is laid out by Qt: where there is no QGuiApplication, one without a display is made, for good, in the thread that calls
+/// first. Afterwards any thread may call.
 void writeReport(const std::filesystem::path& folder, const ReportDocument& document);
 
 /// The page and the PDF as bytes; writeReport() writes these.

@@ -2,17 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReportDocument.h"
 
+#include <QAbstractEventDispatcher>
+#include <QAbstractTextDocumentLayout>
 #include <QBuffer>
 #include <QGuiApplication>
 #include <QImage>
 #include <QPageLayout>
 #include <QPdfWriter>
+#include <QTextBlock>
+#include <QTextCursor>
 #include <QTextDocument>
+#include <QTextTable>
+#include <QThread>
 #include <QUrl>
 
 #include <algorithm>
 #include <clocale>
 #include <cstdio>
+#include <exception>
+#include <memory>
 #include <stdexcept>
 
 namespace handeye::report
@@ -163,12 +171,64 @@ private:
   int figureCount_ = 0;
 };
 
-}  // namespace
-
-std::string toPdf(const ReportDocument& document)
+bool isHeading(const QTextBlock& block)
 {
-  needGuiApplication();
+  return block.blockFormat().headingLevel() > 0;
+}
+
+/// A heading, what it says of pictures or a table that follow, and the line in italics above a table: nothing that may stand alone
+/// at the foot of a page.
+bool belongsToNext(const QTextBlock& block)
+{
+  const bool isCaption = block.length() > 1 && block.begin().fragment().charFormat().fontItalic();
+  const bool isIntroduction = isHeading(block.previous()) && block.next().isValid() &&
+    QTextCursor(block).currentTable() == nullptr && QTextCursor(block.next()).currentTable() != nullptr;
+  return isHeading(block) || isCaption || isIntroduction;
+}
+
+void breakPageBefore(const QTextBlock& block)
+{
+  QTextCursor cursor(block);
+  QTextBlockFormat format = cursor.blockFormat();
+  format.setPageBreakPolicy(QTextFormat::PageBreak_AlwaysBefore);
+  cursor.setBlockFormat(format);
+}
+
+/// Lays the pages out as QTextDocument::print() does, which knows of no such rule, and breaks them earlier where it is needed.
+void keepHeadingsWithWhatFollows(QTextDocument& text, QPagedPaintDevice& device)
+{
+  const std::unique_ptr<QTextDocument> printed(text.clone());
+  printed->setUndoRedoEnabled(false);
+  printed->documentLayout()->setPaintDevice(&device);
+  QTextFrameFormat frame = printed->rootFrame()->frameFormat();
+  frame.setMargin(int(2 / 2.54 * QImage(1, 1, QImage::Format_RGB32).logicalDpiX()));  // 2 cm, of the document's own pixels
+  printed->rootFrame()->setFrameFormat(frame);
+  printed->setPageSize(QSizeF(device.width(), device.height()));
+  const auto pageOf = [&](const QTextBlock& block)
+  { return int(printed->documentLayout()->blockBoundingRect(block).top() / device.height()); };
+  for (QTextBlock first = printed->begin().next(); first.isValid(); first = first.next())
+  {
+    if (!belongsToNext(first) || belongsToNext(first.previous()))
+    {
+      continue;
+    }
+    QTextBlock next = first.next();
+    while (next.isValid() && belongsToNext(next))
+    {
+      next = next.next();
+    }
+    if (next.isValid() && pageOf(first) != pageOf(next))
+    {
+      breakPageBefore(first);
+      breakPageBefore(text.findBlockByNumber(first.blockNumber()));
+    }
+  }
+}
+
+std::string writePdf(const ReportDocument& document)
+{
   QTextDocument text;
+  text.setUndoRedoEnabled(false);
   text.setDefaultFont(QFont("DejaVu Sans", 9));
   Writer writer(text);
   writer.addTitle(document);
@@ -188,9 +248,43 @@ std::string toPdf(const ReportDocument& document)
     pdf.setResolution(300);
     pdf.setTitle(QString::fromStdString(document.title));
     pdf.setCreator("HandEyeCalibration " HANDEYE_VERSION);
+    keepHeadingsWithWhatFollows(text, pdf);
     text.print(&pdf);
   }
   return bytes.toStdString();
+}
+
+}  // namespace
+
+std::string toPdf(const ReportDocument& document)
+{
+  needGuiApplication();
+  if (QAbstractEventDispatcher::instance() != nullptr)
+  {
+    return writePdf(document);
+  }
+  // The layout of a text starts timers, which Qt has in its own threads only.
+  std::string bytes;
+  std::exception_ptr problem;
+  const std::unique_ptr<QThread> thread(QThread::create(
+    [&]
+    {
+      try
+      {
+        bytes = writePdf(document);
+      }
+      catch (...)
+      {
+        problem = std::current_exception();
+      }
+    }));
+  thread->start();
+  thread->wait();
+  if (problem)
+  {
+    std::rethrow_exception(problem);
+  }
+  return bytes;
 }
 
 }  // namespace handeye::report

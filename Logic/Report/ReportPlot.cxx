@@ -19,6 +19,7 @@
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
+#include <vtkTextRenderer.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -26,6 +27,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 
 namespace handeye::report
@@ -33,6 +35,8 @@ namespace handeye::report
 
 namespace
 {
+
+constexpr int BesidePlotPx = 90;  ///< what ticks and margins take beside a title, at least
 
 void check(const Plot& plot)
 {
@@ -98,8 +102,7 @@ void addSeries(vtkChartXY* chart, const PlotSeries& series, vtkTable* table)
   {
     return;
   }
-  const int markers[] = { vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND, vtkPlotPoints::PLUS,
-    vtkPlotPoints::CROSS };
+  const int markers[] = { vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND, vtkPlotPoints::PLUS };
   const bool isLine = series.style == PlotSeries::Style::LineAndDots && table->GetNumberOfRows() > 1;
   auto* points = vtkPlotPoints::SafeDownCast(chart->AddPlot(isLine ? vtkChart::LINE : vtkChart::POINTS));
   points->SetInputData(table, 0, 1);
@@ -107,7 +110,7 @@ void addSeries(vtkChartXY* chart, const PlotSeries& series, vtkTable* table)
   points->SetColor(series.color[0], series.color[1], series.color[2], 255);
   points->SetWidth(isLine ? 2.5F : 1.5F);
   points->GetPen()->SetLineType(isLine && series.isDashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
-  points->SetMarkerStyle(markers[series.marker % 5]);
+  points->SetMarkerStyle(markers[series.marker % 4]);
   points->SetMarkerSize(isLine ? 9.0F : 11.0F);
 }
 
@@ -148,15 +151,48 @@ void setWholeTicks(vtkAxis* axis, double lowest, double highest)
   axis->SetCustomTickPositions(positions, labels);
 }
 
-void setUpAxis(vtkAxis* axis, const std::string& title, double lowest, double highest)
+int widthOf(const std::string& text, vtkTextProperty* look)
 {
-  axis->SetTitle(title);
+  constexpr int Dpi = 72;  // a window's, in which a chart's sizes are pixels
+  int box[4] = { 0, -1, 0, -1 };
+  vtkNew<vtkTextProperty> level;
+  level->ShallowCopy(look);
+  level->SetOrientation(0);
+  vtkTextRenderer* renderer = vtkTextRenderer::GetInstance();
+  const bool isKnown = renderer != nullptr && renderer->GetBoundingBox(level, text, box, Dpi);
+  return isKnown ? box[1] - box[0] + 1 : 0;
+}
+
+/// A text in as many lines as it needs; a chart cuts off what does not fit.
+std::string wrapped(const std::string& text, vtkTextProperty* look, int room)
+{
+  std::istringstream words(text);
+  std::string lines, line, word;
+  while (words >> word)
+  {
+    const std::string longer = line.empty() ? word : line + " " + word;
+    if (!line.empty() && widthOf(longer, look) > room)
+    {
+      lines += line + "\n";
+      line = word;
+    }
+    else
+    {
+      line = longer;
+    }
+  }
+  return lines + line;
+}
+
+void setUpAxis(vtkAxis* axis, const std::string& title, double lowest, double highest, int room)
+{
   axis->SetBehavior(vtkAxis::FIXED);
   axis->SetRange(lowest, highest);
   axis->SetMinimumLimit(lowest);
   axis->SetMaximumLimit(highest);
   axis->GetTitleProperties()->SetFontSize(24);
   axis->GetTitleProperties()->BoldOff();
+  axis->SetTitle(wrapped(title, axis->GetTitleProperties(), room));
   axis->GetLabelProperties()->SetFontSize(21);
   axis->GetGridPen()->SetColor(225, 225, 225, 255);
 }
@@ -164,7 +200,8 @@ void setUpAxis(vtkAxis* axis, const std::string& title, double lowest, double hi
 void setUpAxes(vtkChartXY* chart, const Plot& plot, const Range& rangeX, const Range& rangeY)
 {
   const double marginX = std::max(0.03 * (rangeX.highest - rangeX.lowest), 1e-3 * std::max(1.0, std::abs(rangeX.highest)));
-  setUpAxis(chart->GetAxis(vtkAxis::BOTTOM), plot.xLabel, rangeX.lowest - marginX, rangeX.highest + marginX);
+  const int roomX = plot.width - BesidePlotPx, roomY = plot.height - BesidePlotPx;
+  setUpAxis(chart->GetAxis(vtkAxis::BOTTOM), plot.xLabel, rangeX.lowest - marginX, rangeX.highest + marginX, roomX);
   if (plot.hasWholeX)
   {
     setWholeTicks(chart->GetAxis(vtkAxis::BOTTOM), rangeX.lowest, rangeX.highest);
@@ -173,18 +210,18 @@ void setUpAxes(vtkChartXY* chart, const Plot& plot, const Range& rangeX, const R
   if (plot.isLogarithmic)
   {
     const double lowest = rangeY.lowest - 0.1, highest = std::max(rangeY.highest + 0.1, rangeY.lowest + 0.5);
-    setUpAxis(left, plot.yLabel, lowest, highest);
+    setUpAxis(left, plot.yLabel, lowest, highest, roomY);
     setLogarithmicTicks(left, lowest, highest);
     return;
   }
   const double lowest = std::min(0.0, rangeY.lowest * 1.05);
-  setUpAxis(left, plot.yLabel, lowest, rangeY.highest > lowest ? rangeY.highest * 1.08 : lowest + 1);
+  setUpAxis(left, plot.yLabel, lowest, rangeY.highest > lowest ? rangeY.highest * 1.08 : lowest + 1, roomY);
 }
 
 void setUpChart(vtkChartXY* chart, const Plot& plot)
 {
-  chart->SetTitle(plot.title);
   chart->GetTitleProperties()->SetFontSize(26);
+  chart->SetTitle(wrapped(plot.title, chart->GetTitleProperties(), plot.width - BesidePlotPx));
   chart->SetShowLegend(plot.hasLegend && plot.series.size() > 1);
   vtkChartLegend* legend = chart->GetLegend();
   legend->SetInline(false);

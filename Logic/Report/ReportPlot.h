@@ -28,7 +28,7 @@ struct PlotSeries
   std::string label;
   Color color = { 0, 0, 0 };
   Style style = Style::Dots;
-  int marker = 0;            ///< 0 to 4: circle, square, diamond, plus, cross
+  int marker = 0;            ///< 0 to 3: circle, square, diamond, plus; no cross, which stands for failure
   bool isDashed = false;     ///< of a line
   std::vector<double> x, y;  ///< of the same length
 };

@@ -59,17 +59,24 @@ void addErrors(const MethodResult& method, PlotSeries& series)
 
 }  // namespace
 
-PlotSeries seriesOf(const std::vector<MethodResult>& methods, std::size_t index, PlotSeries::Style style)
+MethodLook lookOf(const std::vector<MethodResult>& methods, std::size_t index)
 {
   const MethodResult& method = methods.at(index);
   const auto place = std::size_t(std::count_if(methods.begin(), methods.begin() + std::ptrdiff_t(index),
     [&](const MethodResult& earlier) { return earlier.target == method.target; }));
   const bool isBoard = method.target == ComparedMethod::Target::Board;
+  // After the ninth the colours come again, with other marks.
+  return { int(place), isBoard ? 3 : int((place + place / 9) % 3), isBoard };
+}
+
+PlotSeries seriesOf(const std::vector<MethodResult>& methods, std::size_t index, PlotSeries::Style style)
+{
+  const MethodLook look = lookOf(methods, index);
   PlotSeries series;
-  series.label = method.name;
-  series.color = seriesColor(place);
-  series.marker = isBoard ? 3 + int(place % 2) : int(place % 3);
-  series.isDashed = isBoard;
+  series.label = methods[index].name;
+  series.color = seriesColor(std::size_t(look.color));
+  series.marker = look.marker;
+  series.isDashed = look.isDashed;
   series.style = style;
   return series;
 }
@@ -174,7 +181,7 @@ std::optional<Plot> errorDirections(const ValidationStepResult& validation)
   }
   series.label = "frames";
   std::optional<Plot> plot =
-    plotOf({ series }, "Which way the projected ball lies from the segmented one", "to the right (px)", "upwards (px)");
+    plotOf({ series }, "Where the projected centre lies, seen from the segmented one", "to the right (px)", "upwards (px)");
   if (plot)
   {
     plot->width = plot->height = 720;

@@ -16,8 +16,18 @@ namespace handeye::report
 /// The plots of the reports, ready for drawPlot(); nothing where there is nothing to show. Each usable method has the colour of its
 /// place in the comparison in all of them.
 
-/// A series with the look of a method, which is the same in all plots: solid lines and filled marks for the methods with
-/// the ball, dashed lines, plus and cross for those with a board; a colour each within its kind.
+struct MethodLook
+{
+  int color = 0;  ///< of seriesColor(), or of a window's colours in the same order
+  int marker = 0;
+  bool isDashed = false;
+};
+
+/// The look of a method, which is the same in all plots and tables: solid lines and filled marks for the methods with the ball,
+/// dashed lines and a plus for those with a board; a colour each within its kind.
+[[nodiscard]] MethodLook lookOf(const std::vector<MethodResult>& methods, std::size_t index);
+
+/// A series with that look.
 [[nodiscard]] PlotSeries seriesOf(const std::vector<MethodResult>& methods, std::size_t index, PlotSeries::Style style);
 
 /// Projection error against the ball's distance, a dot a validation sample.

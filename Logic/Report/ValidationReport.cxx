@@ -52,7 +52,7 @@ report::Table framesTable(const ValidationStepResult& result)
 {
   report::Table table;
   table.caption = "Every frame; those without an error were not used";
-  table.headings = { "frame", "status", "error (px)", "to the right (px)", "downwards (px)", "distance (mm)", "why not" };
+  table.headings = { "frame", "status", "error (px)", "to the right (px)", "upwards (px)", "distance (mm)", "why not" };
   table.textColumns = 2;
   table.endsWithText = true;
   for (const ValidatedFrame& frame : result.frames)
@@ -61,7 +61,7 @@ report::Table framesTable(const ValidationStepResult& result)
     if (frame.status == "ok")
     {
       const Eigen::Vector2d error = frame.validated->projected_Image - frame.captured.ball.ball_Image;
-      row = { row[0], row[1], fixedDigits(frame.validated->errorPx, 2), fixedDigits(error.x(), 2), fixedDigits(error.y(), 2),
+      row = { row[0], row[1], fixedDigits(frame.validated->errorPx, 2), fixedDigits(error.x(), 2), fixedDigits(-error.y(), 2),
         fixedDigits(frame.validated->distanceMm, 0), "" };
     }
     else
@@ -135,6 +135,31 @@ std::string errorsOf(const ValidationStepResult& result)
   return text;
 }
 
+/// A sentence each: which calibration, camera, ball and capture the figures are of.
+std::vector<std::string> subjectOf(const ValidationSubject& subject, const io::Recording& recording)
+{
+  std::vector<std::string> facts;
+  if (!subject.calibrationFile.empty())
+  {
+    facts.push_back("Calibration: " + subject.calibrationFile);
+  }
+  if (subject.camera)
+  {
+    const CameraModel& camera = *subject.camera;
+    const std::string size =
+      camera.hasImageSize() ? std::to_string(camera.width()) + " x " + std::to_string(camera.height()) + " px, " : std::string();
+    facts.push_back("Camera: " + size + "focal lengths " + fixedDigits(camera.fx(), 1) + " and " + fixedDigits(camera.fy(), 1) +
+      " px, principal point (" + fixedDigits(camera.cx(), 1) + ", " + fixedDigits(camera.cy(), 1) + ") px, " +
+      std::to_string(camera.distortionCoefficients().size()) + " distortion coefficients");
+  }
+  if (subject.ballRadiusMm > 0)
+  {
+    facts.push_back("Ball: radius " + significantDigits(subject.ballRadiusMm, 4) + " mm");
+  }
+  facts.push_back("Capture: " + recording.path().string());
+  return facts;
+}
+
 report::ReportDocument makeDocument(
   const ValidationStepResult& result, const io::Recording& recording, const report::PlotDrawer& draw)
 {
@@ -142,7 +167,10 @@ report::ReportDocument makeDocument(
   document.title = "Validation of a hand-eye calibration";
   document.verdict = report::verdictOf(result.projectionErrorPx);
   document.verdictText = result.message;
-  document.blocks.push_back(report::Paragraph{ "Recording: " + recording.path().string() });
+  for (const std::string& fact : subjectOf(result.subject, recording))
+  {
+    document.blocks.push_back(report::Paragraph{ fact });
+  }
   if (result.isUsable())
   {
     document.blocks.push_back(summaryTable(result));

@@ -213,8 +213,8 @@ std::string gapWords(const ComparisonResult& comparison)
 void addCamera(report::ReportDocument& document, const StudyCameraResult& camera, const StudyClaim& claim)
 {
   document.blocks.push_back(Heading{ camera.camera.title });
-  document.blocks.push_back(Paragraph{ claim.message + " The lowest mean of all methods has " + claim.lowestMean +
-    ", the lowest maximum " + claim.lowestMaximum + ". A perfect calibration with the true lens would show " +
+  document.blocks.push_back(Paragraph{ claim.message + " Lowest mean of all methods: " + claim.lowestMean +
+    "; lowest maximum: " + claim.lowestMaximum + ". A perfect calibration with the true lens would show " +
     fixedDigits(camera.floorPx.mean, 2) + " px mean and " + fixedDigits(camera.floorPx.maximum, 2) +
     " px at most: the noise of the validation itself. " + gapWords(camera.comparison) + camera.comparison.message });
   document.blocks.push_back(report::methodsTable(

@@ -257,7 +257,7 @@ std::string describeFailures(const ComparisonResult& result)
   {
     if (!method.isUsable())
     {
-      names += (names.empty() ? "" : ", ") + method.name + " (" + method.status + ")";
+      names += (names.empty() ? "" : ", ") + method.name + " (" + statusWords(method.status) + ")";
       ++count;
     }
   }
@@ -268,7 +268,7 @@ std::string describeFailures(const ComparisonResult& result)
 std::string describe(const ComparisonResult& result)
 {
   const MethodResult& best = result.methods[std::size_t(result.ranking.front())];
-  std::string text = "The lowest mean projection error has " + best.name + " (" + best.title + "): " + errorWords(best) +
+  std::string text = "Lowest mean projection error: " + best.name + " (" + best.title + "), " + errorWords(best) +
     ", over " + std::to_string(best.commonErrorPx.count) + " validation samples" +
     (best.commonErrorPx.count < best.errorPx.count ? " that every ranked method has a result for." : ".");
   text += describeRivals(result);
@@ -282,6 +282,12 @@ std::string describe(const ComparisonResult& result)
 }
 
 }  // namespace
+
+std::string statusWords(std::string status)
+{
+  std::replace(status.begin(), status.end(), '_', ' ');
+  return status;
+}
 
 int MethodResult::usableCount() const
 {

@@ -3,6 +3,7 @@
 #include "LandmarkFiles.h"
 
 #include "AtomicFile.h"
+#include "CameraFile.h"
 #include "FileError.h"
 #include "JsonEigen.h"
 #include "TextFile.h"
@@ -99,6 +100,26 @@ std::string toText(const TouchedLandmarksResult& result, const std::string& reco
 }
 
 }  // namespace
+
+bool isLandmarkText(const Path& path)
+{
+  try
+  {
+    (void)io::readCameraFile(path);
+    return false;
+  }
+  catch (const io::FileError&)
+  {
+  }
+  try
+  {
+    return !io::readPoints(path).empty();
+  }
+  catch (const io::FileError&)
+  {
+    return false;
+  }
+}
 
 LandmarkList readLandmarks(const Path& path)
 {

@@ -23,6 +23,9 @@ struct LandmarkList
   bool isTouched = false;  ///< the file says that its points were touched
 };
 
+/// Whether a text file holds points, one a line, and not a camera's numbers, which stand in rows of three, too.
+[[nodiscard]] bool isLandmarkText(const std::filesystem::path& path);
+
 /// @throws io::FileError naming the line or the key; also where a JSON file's status is not "ok"
 [[nodiscard]] LandmarkList readLandmarks(const std::filesystem::path& path);
 

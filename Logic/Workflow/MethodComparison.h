@@ -166,5 +166,7 @@ void judgeComparison(ComparisonResult& result);
 
 /// "ball", "board"
 std::string toString(ComparedMethod::Target target);
+/// A status as a person writes it: "poor fit" of "poor_fit".
+std::string statusWords(std::string status);
 
 }  // namespace handeye

@@ -4,6 +4,7 @@
 #include "CameraFile.h"
 #include "FileError.h"
 #include "HandEyePrediction.h"
+#include "JsonWords.h"
 #include "ResultFiles.h"
 #include "RigidTransform.h"
 
@@ -35,9 +36,9 @@ json readResult(const Path& path, const char* key)
   {
     object = json::parse(file);
   }
-  catch (const json::exception&)
+  catch (const json::exception& error)
   {
-    throw io::FileError(path, std::string("this is not a JSON file; expected one with \"") + key + "\", as handeye writes it");
+    throw io::FileError(path, "this is " + io::jsonProblem(error) + "; expected a file with \"" + key + "\", as handeye writes it");
   }
   if (!object.is_object())
   {

@@ -34,6 +34,7 @@ ValidationStepResult validateCapture(
   const std::vector<CapturedFrame>& frames, const CameraModel& camera, const Eigen::Isometry3d& markerToCamera)
 {
   ValidationStepResult result;
+  result.subject.camera = camera;
   const HandEyeValidationResult validation = validateHandEye(toSamples(frames), camera, markerToCamera);
   std::size_t next = 0;
   for (const CapturedFrame& captured : frames)

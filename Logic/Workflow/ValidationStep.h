@@ -19,11 +19,20 @@ struct ValidatedFrame
   std::optional<HandEyeValidationSample> validated;  ///< where the frame was a sample
 };
 
+/// What was validated, for whoever reads the result later; what is not known is left out.
+struct ValidationSubject
+{
+  std::string calibrationFile;
+  double ballRadiusMm = 0;  ///< 0: not known
+  std::optional<CameraModel> camera;
+};
+
 struct ValidationStepResult
 {
   std::vector<ValidatedFrame> frames;
   Summary projectionErrorPx;  ///< over the frames with status "ok"
   std::string message;        ///< for a person
+  ValidationSubject subject;  ///< the camera is filled in by validateCapture()
 
   bool isUsable() const { return projectionErrorPx.count > 0; }
 };

@@ -169,7 +169,10 @@ bool LiveSources::isAlive() const
 std::string LiveSources::problemOf(const Entry& entry)
 {
   const devices::SourceStatus status = entry.source->status();
-  const std::string reason = status.lastProblem.empty() ? "" : ": " + status.lastProblem;
+  const std::string named = entry.source->name() + ": ";  // as many problems begin
+  const std::string problem =
+    status.lastProblem.rfind(named, 0) == 0 ? status.lastProblem.substr(named.size()) : status.lastProblem;
+  const std::string reason = problem.empty() ? "" : ": " + problem;
   return entry.source->name() +
     (entry.hasSample                 ? " gives nothing any more"
         : status.connectionCount > 0 ? " is there and gives nothing"

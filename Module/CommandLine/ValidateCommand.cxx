@@ -40,7 +40,9 @@ int runValidate(const ValidateArguments& arguments)
   const CameraModel camera = cameraForRecording(stored.camera, recording);
   const std::vector<CapturedFrame> frames = readCapture(recording, tools, camera, stored.tip_Stylus, stored.ballRadiusMm,
     arguments.ball.forRecording(recording, arguments.output), arguments.output.progress("looking for the ball, frame"));
-  const ValidationStepResult step = validateCapture(frames, camera, stored.markerToCamera);
+  ValidationStepResult step = validateCapture(frames, camera, stored.markerToCamera);
+  step.subject.calibrationFile = arguments.calibration;
+  step.subject.ballRadiusMm = stored.ballRadiusMm;
   if (step.isUsable())
   {
     const Summary& error = step.projectionErrorPx;

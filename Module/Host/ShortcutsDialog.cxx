@@ -5,40 +5,52 @@
 #include <QAction>
 #include <QDialogButtonBox>
 #include <QHeaderView>
+#include <QMap>
 #include <QShortcut>
 #include <QTableWidget>
 #include <QVBoxLayout>
-
-#include <algorithm>
 
 namespace desktop
 {
 
 QVector<QPair<QString, QString>> ShortcutsDialog::shortcutsOf(const QWidget* window)
 {
-  QVector<QPair<QString, QString>> shortcuts;
-  const auto add = [&](QString text, const QKeySequence& keys)
+  QMap<QString, QStringList> keysOf;
+  const auto add = [&](QString text, const QString& keys)
   {
-    text.remove(QLatin1Char('&'));
-    const QPair<QString, QString> entry(text, keys.toString(QKeySequence::NativeText));
-    if (!text.isEmpty() && !keys.isEmpty() && !shortcuts.contains(entry))
+    text = text.remove(QLatin1Char('&')).section(QStringLiteral(": "), 0, 0);  // "Redo: delete a sample" is "Redo"
+    if (!text.isEmpty() && !keys.isEmpty() && !keysOf[text].contains(keys))
     {
-      shortcuts.append(entry);
+      keysOf[text].append(keys);
     }
   };
   for (const QAction* const action : window->findChildren<QAction*>())
   {
     for (const QKeySequence& keys : action->shortcuts())
     {
-      add(action->text(), keys);
+      add(action->text(), keys.toString(QKeySequence::NativeText));
     }
   }
   // A shortcut has no text of its own: a module says in "what's this" what it does.
   for (const QShortcut* const shortcut : window->findChildren<QShortcut*>())
   {
-    add(shortcut->whatsThis(), shortcut->key());
+    add(shortcut->whatsThis(), shortcut->key().toString(QKeySequence::NativeText));
   }
-  std::sort(shortcuts.begin(), shortcuts.end());
+  for (const QWidget* const widget : window->findChildren<QWidget*>())
+  {
+    for (const QString& line : widget->property("keysAndWhatTheyDo").toStringList())
+    {
+      add(line.section(QLatin1Char('\t'), 1), line.section(QLatin1Char('\t'), 0, 0));
+    }
+  }
+  QVector<QPair<QString, QString>> shortcuts;
+  for (auto entry = keysOf.constBegin(); entry != keysOf.constEnd(); ++entry)
+  {
+    if (!entry->isEmpty())
+    {
+      shortcuts.append({ entry.key(), entry->join(tr(" or ")) });
+    }
+  }
   return shortcuts;
 }
 

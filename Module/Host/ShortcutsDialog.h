@@ -10,6 +10,8 @@ namespace desktop
 {
 
 /// What can be done with the keyboard: every action and shortcut of a window and its widgets that has keys, as they are now.
+/// A shortcut says in "what's this" what it does. Of keys that a widget handles itself, it says so in its property
+/// `keysAndWhatTheyDo`: a list of texts, key and words with a tabulator between them.
 class ShortcutsDialog : public QDialog
 {
   Q_OBJECT
@@ -17,7 +19,7 @@ class ShortcutsDialog : public QDialog
 public:
   explicit ShortcutsDialog(QWidget* window);
 
-  /// What it does, and the keys; sorted, each once.
+  /// What it does, and the keys ("Ctrl+Y or Ctrl+Shift+Z"); sorted, each once.
   static QVector<QPair<QString, QString>> shortcutsOf(const QWidget* window);
 };
 

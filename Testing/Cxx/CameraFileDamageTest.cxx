@@ -193,7 +193,7 @@ TEST(CameraFileDamage, DeepNesting_DoesNotUseUpTheStack)
   expectRefused(keys + ": 1\n", { "line 1", "key" });
   expectRefused(tags + closingTags, { "line 1", "levels deep" });
   expectRefused(tags, { "line 1", "cut short" });
-  expectRefused("{\"a\":" + std::string(1000000, '['), { "not valid JSON" });
+  expectRefused("{\"a\":" + std::string(1000000, '['), { "this is not JSON: line 1, column " });
 }
 
 /// Random damage: whatever the bytes, the answer is a camera or a FileError.

@@ -210,7 +210,7 @@ TEST(CameraFile, CalibrationJson_HasCameraAndMarker)
   expectRefused(replaced(CalibrationText, "\"width\": 640,", ""), { "'camera.width' is missing" });
   expectRefused(replaced(CalibrationText, "601.7", "\"f\""), { "'camera.cameraMatrix'", "not a number" });
   expectRefused(replaced(CalibrationText, "[0, 602.9, 244.8]", "[0, 602.9]"), { "'camera.cameraMatrix'", "different lengths" });
-  expectRefused(CalibrationText.substr(0, 100), { "not valid JSON" });
+  expectRefused(CalibrationText.substr(0, 100), { "this is not JSON: line " });
 }
 
 TEST(CameraFile, Locale_DoesNotMatter)

@@ -11,6 +11,7 @@
 
 #include <vtkRenderer.h>
 
+#include <QAction>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
@@ -270,6 +271,23 @@ private slots:
       keys << key;
     }
     QVERIFY(keys.contains("Ctrl+L") && keys.contains("F11") && keys.contains("Ctrl+PgUp"));
+  }
+
+  void shortcuts_OneLineEach_WhateverTheyWouldDoNow()
+  {
+    QWidget window;
+    QAction redo("&Redo"), redoOfOther("Redo: leave out a sample");
+    for (QAction* const action : { &redo, &redoOfOther })
+    {
+      action->setShortcuts({ QKeySequence(Qt::CTRL + Qt::Key_Y), QKeySequence(Qt::CTRL + Qt::SHIFT + Qt::Key_Z) });
+      action->setParent(&window);
+    }
+    auto* const page = new QWidget(&window);
+    page->setProperty("keysAndWhatTheyDo", QStringList{ "Space\tTake a sample" });
+    const QVector<QPair<QString, QString>> expected = { { "Redo", "Ctrl+Y or Ctrl+Shift+Z" }, { "Take a sample", "Space" } };
+    QCOMPARE(desktop::ShortcutsDialog::shortcutsOf(&window), expected);
+    redo.setParent(nullptr);
+    redoOfOther.setParent(nullptr);
   }
 
   void everyButton_SaysWhatItDoes()

@@ -69,6 +69,16 @@ TEST_F(LandmarkFiles, PlainText_IsNeither)
   EXPECT_EQ(list.points.size(), 2U);
 }
 
+TEST_F(LandmarkFiles, RowsOfNumbers_AreLandmarksIfTheyAreNoCamera)
+{
+  const TemporaryFolder texts;
+  EXPECT_TRUE(isLandmarkText(texts.write("model.txt", "0.4 -65.4 -15.7\n-42.2 -35.6 2.9\n42.2 -35.8 1.5\n-16.7 -31.8 23.2\n")));
+  EXPECT_TRUE(isLandmarkText(texts.write("named.txt", "# tip\n1 2 3\n# base\n4 5 6\n")));
+  EXPECT_FALSE(isLandmarkText(texts.write("camera.txt", "800 0 320\n0 800 240\n0 0 1\n0 0 0 0\n")));
+  EXPECT_FALSE(isLandmarkText(texts.write("words.txt", "dear diary\n")));
+  EXPECT_FALSE(isLandmarkText(texts.path() / "not there.txt"));
+}
+
 TEST_F(LandmarkFiles, Names_AreTheCommentsOfThePoints_IfAllHaveOne)
 {
   const std::vector<std::string> expected = { "tip", "left rim" };

@@ -66,13 +66,13 @@ private slots:
         QVERIFY(contrast(levelColor(level, palette), palette.color(QPalette::Window)) >= 4.5);
       }
       QSet<QRgb> colors;
-      for (int index = 0; index < 6; ++index)
+      for (int index = 0; index < 9; ++index)
       {
         QVERIFY(contrast(seriesColor(index, palette), palette.color(QPalette::Base)) >= 3);
         colors.insert(seriesColor(index, palette).rgb());
       }
-      QCOMPARE(colors.size(), 6);
-      QCOMPARE(seriesColor(6, palette), seriesColor(0, palette));
+      QCOMPARE(colors.size(), 9);
+      QCOMPARE(seriesColor(9, palette), seriesColor(0, palette));
     }
   }
 

@@ -131,7 +131,7 @@ TEST_F(MethodComparison, FailedMethod_IsARowThatSaysWhy)
   EXPECT_EQ(result.methods[0].message, "all motions turn about one axis");
   EXPECT_EQ(result.methods[0].errorPx.count, 0);
   EXPECT_EQ(result.ranking, (std::vector<int>{ 1 }));
-  EXPECT_NE(result.message.find("classical (parallel_motions)"), std::string::npos) << result.message;
+  EXPECT_NE(result.message.find("classical (parallel motions)"), std::string::npos) << result.message;
   const nlohmann::json json = comparisonJson(result);
   EXPECT_FALSE(json["methods"][0].contains("projectionErrorPx"));
   EXPECT_FALSE(json["methods"][0]["captures"][0].contains("markerToCamera"));
@@ -191,7 +191,7 @@ TEST_F(MethodComparison, MethodThatFailsOften_IsNotTheBest)
   EXPECT_EQ(result.incomplete, (std::vector<int>{ 0 }));
   EXPECT_TRUE(result.notToldApart.empty());
   EXPECT_NEAR(result.methods[0].successShare, 0.2, 1e-12);
-  EXPECT_NE(result.message.find("The lowest mean projection error has steady"), std::string::npos) << result.message;
+  EXPECT_NE(result.message.find("Lowest mean projection error: steady"), std::string::npos) << result.message;
   EXPECT_NE(
     result.message.find("patchy (1 of 5 calibrations, 0.00 px mean over what it has, where steady has 0.20 px)"), std::string::npos)
     << result.message;

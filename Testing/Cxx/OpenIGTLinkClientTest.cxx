@@ -118,6 +118,8 @@ TEST(OpenIGTLinkClient, NoServer_SaysSoAndStopsAtOnce)
   client.start();
   ASSERT_TRUE(waitUntil([&] { return client.status().lastProblem.find("does not answer") != std::string::npos; }));
   EXPECT_EQ(client.status().state, SourceState::Connecting);
+  const std::string problem = client.status().lastProblem;
+  EXPECT_EQ(problem.rfind(client.name() + ": does not answer (", 0), 0U) << problem << ": its name, once";
   client.stop();
   EXPECT_EQ(client.status().state, SourceState::Stopped);
 }

@@ -4,10 +4,12 @@
 
 #include "IoTestSupport.h"
 
+#include <QGuiApplication>
 #include <gtest/gtest.h>
 
 #include <clocale>
 #include <cstdio>
+#include <thread>
 
 using namespace handeye;
 using namespace handeye::report;
@@ -44,6 +46,13 @@ int countOf(const std::string& text, const std::string& word)
     ++count;
   }
   return count;
+}
+
+QStringList saidByQt;
+
+void keepMessage(QtMsgType, const QMessageLogContext&, const QString& message)
+{
+  saidByQt << message;
 }
 
 }  // namespace
@@ -101,6 +110,22 @@ TEST(ReportDocument, Pdf_LeavesDecimalPointsAlone)
   std::snprintf(text, sizeof(text), "%.1f", 0.5);
   EXPECT_STREQ(text, "0.5");
   EXPECT_STREQ(std::setlocale(LC_NUMERIC, nullptr), "C");
+}
+
+// As the wizard has it done.
+TEST(ReportDocument, Pdf_InAThreadThatIsNotQts_IsMadeWithoutComplaint)
+{
+  ReportDocument lengthy = document();  // a short one is laid out in one step, without a timer
+  lengthy.blocks.insert(
+    lengthy.blocks.end(), 100, Paragraph{ "As many words as a report has, and more than Qt lays out at once." });
+  (void)toPdf(lengthy);  // makes the application, for good
+  saidByQt.clear();
+  const QtMessageHandler before = qInstallMessageHandler(keepMessage);
+  std::string pdf;
+  std::thread([&] { pdf = toPdf(lengthy); }).join();
+  qInstallMessageHandler(before);
+  EXPECT_EQ(pdf.rfind("%PDF-", 0), 0U);
+  EXPECT_EQ(saidByQt.join("; ").toStdString(), "");
 }
 
 TEST(ReportDocument, WriteReport_WritesPagePdfAndData)

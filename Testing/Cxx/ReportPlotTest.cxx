@@ -104,6 +104,21 @@ TEST_F(ReportPlot, Line_IsDrawnBetweenTheDots)
   EXPECT_GT(find(drawPlot(plot), { 0, 0, 255 }).second, dots);
 }
 
+TEST_F(ReportPlot, LongTitles_AreNotCutOff)
+{
+  Plot plot = twoSeries();
+  plot.title = plot.xLabel = plot.yLabel = "a title of many more words than there is room for in one line of such a small picture";
+  const cv::Mat picture = drawPlot(plot);
+  const cv::Rect all(0, 0, picture.cols, picture.rows);
+  for (const cv::Rect& edge : { cv::Rect(0, 0, all.width, 2), cv::Rect(0, all.height - 2, all.width, 2),
+         cv::Rect(0, 0, 2, all.height), cv::Rect(all.width - 2, 0, 2, all.height) })
+  {
+    double least = 0;
+    cv::minMaxLoc(picture(edge).clone().reshape(1), &least);
+    EXPECT_GT(least, 200) << "something is drawn at the edge " << edge;
+  }
+}
+
 TEST_F(ReportPlot, NothingToDraw_IsRefused)
 {
   Plot plot = twoSeries();

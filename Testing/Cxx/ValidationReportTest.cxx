@@ -4,7 +4,9 @@
 
 #include "CaptureSimulation.h"
 #include "GeometryMatchers.h"
+#include "NumberWords.h"
 #include "OffscreenRendering.h"
+#include "ReportPlots.h"
 #include "ValidationStep.h"
 
 #include <gtest/gtest.h>
@@ -71,6 +73,8 @@ protected:
     const auto frames = readCapture(recording, {}, session.camera, session.tip_Stylus, session.ballRadiusMm);
     const Eigen::Isometry3d markerToCamera = makeRigid({ 0, 0, 0 }, { 8, 0, 0 }) * session.markerToCamera;
     result = validateCapture(frames, session.camera, markerToCamera);
+    result.subject.calibrationFile = "some/calibration.json";
+    result.subject.ballRadiusMm = session.ballRadiusMm;
     writeValidationReport(report, result, recording);
   }
 
@@ -94,6 +98,25 @@ TEST_F(ValidationReport, Page_HasVerdictTablesAndPlots)
   std::snprintf(error, sizeof(error), "<td>%.2f</td>", result.frames[1].validated->errorPx);
   EXPECT_GE(countOf(page, error), 1) << error;
   EXPECT_EQ(page.find("nan"), std::string::npos);
+}
+
+TEST_F(ValidationReport, Page_NamesWhatWasValidated)
+{
+  const std::string page = readBytes(report / "report.html");
+  for (const std::string words :
+    { "Calibration: some/calibration.json", "Camera: 320 x 240 px, focal lengths ", "Ball: radius ", "Capture: " })
+  {
+    EXPECT_NE(page.find("<p>" + words), std::string::npos) << words;
+  }
+}
+
+TEST_F(ValidationReport, Directions_AreTheSameInTableAndPlot)
+{
+  const std::string page = readBytes(report / "report.html");
+  const handeye::report::Plot plot = handeye::report::errorDirections(result).value();
+  EXPECT_NE(page.find(">" + plot.xLabel + "<"), std::string::npos) << plot.xLabel;
+  EXPECT_NE(page.find(">" + plot.yLabel + "<"), std::string::npos) << plot.yLabel;
+  EXPECT_NE(page.find(">" + fixedDigits(plot.series[0].y[1], 2) + "<"), std::string::npos) << plot.series[0].y[1];
 }
 
 TEST_F(ValidationReport, Page_IsOneFileAndAPdfIsBesideIt)

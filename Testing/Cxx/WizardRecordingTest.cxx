@@ -3,6 +3,7 @@
 #include "CameraFile.h"
 #include "ExportPanel.h"
 #include "LandmarkFiles.h"
+#include "LandmarkPanel.h"
 #include "ResultFiles.h"
 #include "SampleTable.h"
 #include "WidgetTestSupport.h"
@@ -284,6 +285,10 @@ void WizardRecordingTest::recording_FromFirstPageToLast()
     QCOMPARE(other.currentStep(), step);
   }
   QTRY_VERIFY_WITH_TIMEOUT(other.workbench().modelToPhantom().has_value(), PatienceMs);
+  other.goTo(WizardStep::Camera);
+  QVERIFY(other.openFile(demo("phantom_model_points.txt")));
+  QCOMPARE(other.currentStep(), WizardStep::Overlay);
+  QVERIFY(other.findChild<handeye::LandmarkPanel*>()->landmarks().size() >= 3);
   QVERIFY(other.workbench().stylus() && other.workbench().camera());
   QVERIFY(other.workbench().calibration()->calibration.markerToCamera.isApprox(markerToCamera, 1e-6));
 }
