@@ -183,6 +183,7 @@ void HandEyeWorkbench::revalidate()
   if (!frames.empty() && !validationCapture_->isStale() && calibration_ && calibration_->isUsable())
   {
     validation_ = validateCapture(frames, calibration_->camera, calibration_->calibration.markerToCamera);
+    validation_->subject.ballRadiusMm = ball_.radiusMm;
     store("validation", validationJson(*validation_));
   }
   emit validationChanged();
