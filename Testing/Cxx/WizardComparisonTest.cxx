@@ -311,7 +311,7 @@ void WizardComparisonTest::failingMethods_AreRowsWithTheirReason()
     const int row = rowOf(method);
     QVERIFY2(row > rowOf("ml"), method);
     const QString reason = table->item(row, ComparisonTable::Mean)->text();
-    QVERIFY2(reason.startsWith(QStringLiteral("parallel_motions: ")), qPrintable(reason));
+    QVERIFY2(reason.startsWith(QStringLiteral("parallel motions: ")), qPrintable(reason));
     QCOMPARE(table->columnSpan(row, ComparisonTable::Mean), int(ComparisonTable::ColumnCount) - 1);
   }
   QVERIFY(driver_->onPage<QLabel>("verdictLabel")->text().contains(QStringLiteral("gave no calibration")));
