@@ -13,8 +13,8 @@
 #include <QMap>
 #include <QObject>
 #include <QString>
-#include <QTimer>
 #include <QStringList>
+#include <QTimer>
 #include <QVector>
 
 #include <atomic>
@@ -141,7 +141,7 @@ private:
   QMap<int, CaptureSample> samples_;
   QString folder_, hint_;
   bool isOpen_ = false, isHandsFree_ = false, isBusy_ = false;
-  QTimer begin_;  ///< of hands-free taking
+  QTimer begin_;                   ///< of hands-free taking
   std::atomic<int> session_{ 0 };  ///< counts the folders that were opened or let go of
   int evaluations_ = 0;            ///< under way, after inputs were changed
   bool isBroken_ = false;          ///< the last one failed

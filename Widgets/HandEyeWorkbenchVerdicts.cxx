@@ -137,8 +137,8 @@ QString HandEyeWorkbench::verdictOf(WizardStep step) const
       return validation_ ? QString::fromStdString(validation_->message) : QString();
     case WizardStep::Overlay:
       return registration_ && registration_->isUsable() ? QString::fromStdString(registration_->message)
-        : modelToPhantom_                               ? tr("The phantom is registered, by a file or by the session as it was opened.")
-                                                        : QString();
+        : modelToPhantom_ ? tr("The phantom is registered, by a file or by the session as it was opened.")
+                          : QString();
     case WizardStep::Comparison:
     case WizardStep::Finish:
       break;

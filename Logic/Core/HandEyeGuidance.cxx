@@ -178,7 +178,8 @@ void HandEyeGuidanceOptions::check() const
 {
   const bool depths = nearestMm > 0 && furthestMm > nearestMm && std::isfinite(furthestMm);
   const bool noise = trackingSigmaMm >= 0 && segmentationSigmaPx >= 0 && trackingSigmaMm + segmentationSigmaPx > 0;
-  if (!depths || !noise || !(borderShare >= 0 && borderShare < 0.5) || !(ballRadiusMm >= 0 && ballRadiusMm < nearestMm) || !(separationMm >= 0) || !(minimumGain >= 0))
+  if (!depths || !noise || !(borderShare >= 0 && borderShare < 0.5) || !(ballRadiusMm >= 0 && ballRadiusMm < nearestMm) ||
+    !(separationMm >= 0) || !(minimumGain >= 0))
   {
     throw std::invalid_argument(
       "guidance options: two depths, the nearer first, noise of at least 0, a border below half the image, "

@@ -35,8 +35,8 @@ Table methodsTable(const ComparisonResult& result, const std::string& caption)
   table.caption = caption + ". Rank: ~ is not told apart from the first by these data" +
     (result.incomplete.empty() ? "" : "; apart: failed where others did not, its errors are of easier cases") +
     (hasGaps ? ". Common mean: over the samples for which every ranked method has a result, which the ranking compares" : "");
-  table.headings = { "method", "target", "status", "rank", "mean", "std", "min", "max", "RMS", "samples", "calibrations", "time (s)",
-    "what it is" };
+  table.headings = { "method", "target", "status", "rank", "mean", "std", "min", "max", "RMS", "samples", "calibrations",
+    "time (s)", "what it is" };
   if (hasGaps)
   {
     table.headings.insert(table.headings.begin() + 5, "common mean");

@@ -268,8 +268,8 @@ std::string describeFailures(const ComparisonResult& result)
 std::string describe(const ComparisonResult& result)
 {
   const MethodResult& best = result.methods[std::size_t(result.ranking.front())];
-  std::string text = "Lowest mean projection error: " + best.name + " (" + best.title + "), " + errorWords(best) +
-    ", over " + std::to_string(best.commonErrorPx.count) + " validation samples" +
+  std::string text = "Lowest mean projection error: " + best.name + " (" + best.title + "), " + errorWords(best) + ", over " +
+    std::to_string(best.commonErrorPx.count) + " validation samples" +
     (best.commonErrorPx.count < best.errorPx.count ? " that every ranked method has a result for." : ".");
   text += describeRivals(result);
   const auto other = best.target == ComparedMethod::Target::Ball ? ComparedMethod::Target::Board : ComparedMethod::Target::Ball;

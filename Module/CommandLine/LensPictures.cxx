@@ -103,8 +103,8 @@ public:
       const LensCollection::Look look = pictures_.add(image);
       if (look.isTaken)
       {
-        folder_.add(pictures_.detections().size() - 1, image);
         sayTaken();
+        folder_.add(pictures_.detections().size() - 1, image);
       }
       else
       {

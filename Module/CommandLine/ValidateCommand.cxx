@@ -77,7 +77,9 @@ void addValidateCommand(CLI::App& app, int& exitCode)
   CLI::App* command = app.add_subcommand("validate", "Measure a calibration's projection error on a capture that was not fitted");
   addRecordingArgument(*command, arguments->recording, "Another capture: images and tracking");
   addCalibrationOption(*command, arguments->calibration);
-  command->add_option("--report", arguments->report, "Write report.html, report.pdf, errors.csv and a picture a frame into this folder")->type_name("DIR");
+  command
+    ->add_option("--report", arguments->report, "Write report.html, report.pdf, errors.csv and a picture a frame into this folder")
+    ->type_name("DIR");
   arguments->ball.addTo(*command);
   addTransformOption(*command, "--stylus-transform", arguments->stylusTransform, "stylus");
   addTransformOption(*command, "--marker-transform", arguments->markerTransform, "camera's marker");
