@@ -25,8 +25,8 @@ namespace
 /// A ball in even light, whose right part is covered from a column on, and its true outline.
 struct Scene
 {
-  Scene(double radiusPx, bool isHalf, bool isShaded, double noise)
-    : radiusPx(radiusPx)
+  Scene(double imageRadiusPx, bool isHalf, bool isShaded, double noise)
+    : radiusPx(imageRadiusPx)
   {
     ball.center_Camera = Eigen::Vector3d(1.3, -2.1, 15 / std::sin(std::atan(radiusPx / Focal)));
     ball.isShaded = isShaded;
