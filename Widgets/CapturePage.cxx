@@ -64,14 +64,34 @@ CapturePage::CapturePage(HandEyeWorkbench& workbench, QWidget* parent)
       }
     });
   connect(&capture, &CaptureTask::imported, this,
-    [this](int taken, int refused, const QString& reason)
+    [this](const QVector<int>& ids, int refused, const QString& reason)
     {
-      ui_->hintLabel->setText(refused == 0
-          ? tr("%1 samples from the recording.").arg(taken)
-          : tr("%1 samples from the recording; %2 frames were left out, the first: %3").arg(taken).arg(refused).arg(reason));
+      ui_->hintLabel->setText(importedWords(ids.size(), refused, reason));
+      if (!ids.isEmpty())
+      {
+        ui_->hintLabel->setText(ui_->hintLabel->text() + QLatin1Char(' ') + tr("Undo takes them out again."));
+        ui_->table->addUndoableSamples(
+          ids, counted(ids.size(), tr("take a sample of a recording"), tr("take %1 samples of a recording")));
+      }
     });
   connect(&workbench_, &HandEyeWorkbench::calibrationChanged, this, &CapturePage::showCalibration);
-  connect(&workbench_, &HandEyeWorkbench::sessionOpened, this, [this] { ui_->table->clearHistory(); });
+  connect(&workbench_, &HandEyeWorkbench::sessionOpened, this,
+    [this]
+    {
+      ui_->table->clearHistory();
+      // A session that is gone on with takes nothing by itself before it is asked to.
+      const int stored = workbench_.capture().storedSampleCount();
+      const QSignalBlocker blocker(ui_->handsFreeBox);
+      ui_->handsFreeBox->setChecked(stored == 0);
+      workbench_.capture().setHandsFree(false);
+      if (isVisible() && stored == 0)
+      {
+        workbench_.capture().beginHandsFree();
+      }
+      ui_->hintLabel->setText(stored > 0 && workbench_.devices().isConnected()
+          ? tr("This session has samples already: turn Hands-free on to add others by itself.")
+          : QString());
+    });
 }
 
 CapturePage::~CapturePage() = default;
@@ -155,6 +175,15 @@ void CapturePage::refresh()
   ui_->takeButton->setEnabled(isReady && isLive);
   ui_->recordingButton->setEnabled(isReady && !workbench_.capture().isBusy());
   ui_->againButton->setVisible(workbench_.capture().isBroken());
+  const QString offline = tr("Nothing is connected: see the page Devices. A recording can be taken without.");
+  if (isReady && !isLive && ui_->hintLabel->text().isEmpty())
+  {
+    ui_->hintLabel->setText(offline);
+  }
+  else if (isLive && ui_->hintLabel->text() == offline)
+  {
+    ui_->hintLabel->clear();
+  }
   for (const auto& [spin, value] : { std::pair{ ui_->nearestSpin, workbench_.nearestMm() },
          std::pair{ ui_->furthestSpin, workbench_.furthestMm() }, std::pair{ ui_->enoughSpin, workbench_.enoughPx() } })
   {

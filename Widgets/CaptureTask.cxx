@@ -146,7 +146,12 @@ void CaptureTask::openFolder(const QString& folder)
       {
         problems << QString::fromStdString(problem);
       }
-      tell([documents, problems](CaptureTask& task) { emit task.opened(documents, problems); });
+      tell(
+        [documents, problems, count = int(work.session->samples().size())](CaptureTask& task)
+        {
+          task.storedSampleCount_ = count;
+          emit task.opened(documents, problems);
+        });
       evaluateAll(work);
     });
 }
@@ -156,6 +161,7 @@ void CaptureTask::close()
   isOpen_ = false;
   folder_.clear();
   samples_.clear();
+  storedSampleCount_ = 0;
   evaluations_ = 0;
   isBroken_ = false;
   setBusy(false);

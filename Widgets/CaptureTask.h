@@ -71,6 +71,8 @@ public:
   void close();
   bool isOpen() const { return isOpen_; }
   QString folder() const { return folder_; }
+  /// How many samples the folder held when it was opened, whether they have been looked at or not.
+  int storedSampleCount() const { return storedSampleCount_; }
 
   /// Samples that there are already are evaluated anew where the inputs are others. Nothing: no capture.
   void setInputs(const std::optional<CaptureInputs>& inputs);
@@ -86,7 +88,8 @@ public:
   void setExcluded(const QVector<int>& ids, bool isExcluded);
   void setDeleted(const QVector<int>& ids, bool isDeleted);
 
-  /// Each frame of a recording in which the ball is found becomes a sample; progress() and imported() tell.
+  /// Each frame of a recording in which the ball is found becomes a sample; progress() and imported() tell. Deleting those takes the
+  /// import back.
   void importRecording(const QString& path);
   bool isBusy() const { return isBusy_; }
   /// The samples are those of other inputs: they are being evaluated anew, or could not be.
@@ -116,7 +119,8 @@ signals:
   void hintChanged();
   void progress(int done, int total, const QString& what);
   void busyChanged();
-  void imported(int taken, int refused, const QString& message);
+  /// @param reason why the first frame was refused, if any was
+  void imported(const QVector<int>& ids, int refused, const QString& reason);
   void failed(const QString& message);
 
 private:
@@ -140,6 +144,7 @@ private:
   std::optional<CaptureInputs> inputs_;
   QMap<int, CaptureSample> samples_;
   QString folder_, hint_;
+  int storedSampleCount_ = 0;
   bool isOpen_ = false, isHandsFree_ = false, isBusy_ = false;
   QTimer begin_;                   ///< of hands-free taking
   std::atomic<int> session_{ 0 };  ///< counts the folders that were opened or let go of

@@ -196,7 +196,8 @@ void CaptureTask::readRecording(Work& work, const std::string& path, const ToolN
   (void)latencyNotes(recording, tools.latencySec);  // refuses poses that are too far apart for one
   const CameraModel camera = cameraForRecording(work.inputs->camera, recording);
   const BallDetector detector(camera, work.inputs->ballRadiusMm, work.inputs->detection);
-  int taken = 0, refused = 0;
+  QVector<int> taken;
+  int refused = 0;
   std::string reason;
   for (int frame = 0; frame < recording.frameCount() && !thread_.isCancelled() && !isOutdated(work); ++frame)
   {
@@ -217,7 +218,7 @@ void CaptureTask::readRecording(Work& work, const std::string& path, const ToolN
     }
     stored.detection = detectionJson(captured);
     const int id = work.session->addSample(image, stored);
-    ++taken;
+    taken << id;
     tell([sample = work.evaluate(id)](CaptureTask& task) { task.addSample(sample, false); });
   }
   work.renewLive();

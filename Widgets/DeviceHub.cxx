@@ -204,6 +204,15 @@ void DeviceHub::disconnectDevices()
   emit streamsChanged();
 }
 
+void DeviceHub::prepare(const DeviceSetup& setup)
+{
+  if (!isConnected())
+  {
+    setup_ = setup;
+    emit streamsChanged();
+  }
+}
+
 void DeviceHub::setNames(const DeviceSetup& setup)
 {
   setup_.stylusToTracker = setup.stylusToTracker;

@@ -88,6 +88,8 @@ public:
 
   const DeviceSetup& setup() const { return setup_; }
   /// Other names of streams, or another latency, for the sources as they are.
+  /// What is to be connected to, as long as nothing is.
+  void prepare(const DeviceSetup& setup);
   void setNames(const DeviceSetup& setup);
   void setLatency(double latencySec);
 

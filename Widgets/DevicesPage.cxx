@@ -5,6 +5,7 @@
 #include "ui_DevicesPage.h"
 
 #include <QFileDialog>
+#include <QLocale>
 #include <QSignalBlocker>
 
 namespace handeye
@@ -37,6 +38,17 @@ DevicesPage::DevicesPage(HandEyeWorkbench& workbench, QWidget* parent)
     });
   connect(ui_->newSessionButton, &QPushButton::clicked, this, &DevicesPage::newSession);
   connect(ui_->openSessionButton, &QPushButton::clicked, this, &DevicesPage::openSession);
+  lastSession_ = rememberedSession(workbench_.sessionFolder());
+  connect(ui_->lastSessionButton, &QPushButton::clicked, &workbench_,
+    [this]
+    {
+      if (lastSession_)
+      {
+        workbench_.openSession(QString(lastSession_->folder));
+      }
+    });
+  connect(&workbench_, &HandEyeWorkbench::sessionUsed, this, [this] { lastSession_.reset(); });
+  connect(&workbench_, &HandEyeWorkbench::sessionOpened, this, &DevicesPage::showSetup);
 }
 
 DevicesPage::~DevicesPage() = default;
@@ -57,6 +69,26 @@ void DevicesPage::connectOrNot()
   setup.recording = ui_->recordingEdit->text().trimmed();
   setup.replaySpeed = ui_->speedSpin->value();
   workbench_.connectDevices(setup);
+}
+
+/// What the session was connected to stands there to be connected to again.
+void DevicesPage::showSetup()
+{
+  const DeviceSetup& setup = workbench_.devices().setup();
+  if (!workbench_.devices().isConnected())
+  {
+    buttonOf(setup.kind)->setChecked(true);
+    ui_->serversEdit->setText(setup.servers.join(QStringLiteral(", ")));
+    ui_->cameraEdit->setText(setup.camera);
+    ui_->recordingEdit->setText(setup.recording);
+  }
+}
+
+QRadioButton* DevicesPage::buttonOf(DeviceSetup::Kind kind) const
+{
+  return kind == DeviceSetup::Kind::SimulatedRoom ? ui_->roomButton
+    : kind == DeviceSetup::Kind::Servers          ? ui_->serversButton
+                                                  : ui_->recordingButton;
 }
 
 void DevicesPage::choose(StreamList::Role role, const QString& name)
@@ -132,11 +164,7 @@ void DevicesPage::refresh()
   }
   if (isConnected)
   {
-    const DeviceSetup::Kind kind = hub.setup().kind;
-    (kind == DeviceSetup::Kind::SimulatedRoom ? ui_->roomButton
-        : kind == DeviceSetup::Kind::Servers  ? ui_->serversButton
-                                              : ui_->recordingButton)
-      ->setChecked(true);
+    buttonOf(hub.setup().kind)->setChecked(true);
   }
   ui_->connectionLabel->setText(isConnected ? tr("connected") : tr("not connected"));
   ui_->sourceStatusLabel->setText(hub.status());
@@ -155,6 +183,17 @@ void DevicesPage::refresh()
   }
   const QString folder = workbench_.sessionFolder();
   ui_->sessionLabel->setText(folder.isEmpty() ? tr("No session is open.") : folder);
+  for (QWidget* widget : std::initializer_list<QWidget*>{ ui_->lastSessionLabel, ui_->lastSessionButton })
+  {
+    widget->setVisible(lastSession_.has_value());
+  }
+  if (lastSession_)
+  {
+    ui_->lastSessionLabel->setText(
+      tr("Last time, %1: %2.").arg(QLocale().toString(lastSession_->changed, QLocale::ShortFormat), toString(*lastSession_)));
+    ui_->lastSessionLabel->setToolTip(lastSession_->folder);
+    ui_->lastSessionButton->setToolTip(tr("Opens %1 with everything in it").arg(lastSession_->folder));
+  }
   ui_->sessionLabel->setToolTip(workbench_.sessionProblems().join(QLatin1Char('\n')));
 }
 

@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "DeviceHub.h"
+#include "SessionMemory.h"
 #include "StreamList.h"
 #include "WizardPage.h"
 
 #include <memory>
+#include <optional>
+
+class QRadioButton;
 
 namespace Ui
 {
@@ -30,12 +35,15 @@ public:
 
 private:
   void connectOrNot();
+  void showSetup();
+  QRadioButton* buttonOf(DeviceSetup::Kind kind) const;
   void choose(StreamList::Role role, const QString& name);
   void browseRecording();
   void newSession();
   void openSession();
 
   std::unique_ptr<Ui::DevicesPage> ui_;
+  std::optional<SessionSummary> lastSession_;  ///< offered as long as the one that is open has nothing in it
 };
 
 }  // namespace handeye

@@ -86,12 +86,14 @@ void ExportPanel::Private::addFormats()
 /// In two columns where they have room, else in one.
 void ExportPanel::Private::arrangeFormats()
 {
-  int widest = 0;
-  for (const QCheckBox* box : boxes)
+  int widest[2] = { 0, 0 };
+  for (std::size_t index = 0; index < boxes.size(); ++index)
   {
-    widest = std::max(widest, box->sizeHint().width());
+    widest[index % 2] = std::max(widest[index % 2], boxes[index]->sizeHint().width());
   }
-  const int wanted = ui.formatsBox->contentsRect().width() >= 2 * widest + 36 ? 2 : 1;
+  const QMargins margins = ui.formatsLayout->contentsMargins();
+  const int roomPx = ui.formatsBox->contentsRect().width() - margins.left() - margins.right();
+  const int wanted = roomPx >= widest[0] + widest[1] + ui.formatsLayout->horizontalSpacing() ? 2 : 1;
   if (wanted == columns)
   {
     return;
@@ -105,8 +107,9 @@ void ExportPanel::Private::arrangeFormats()
   {
     ui.formatsLayout->addWidget(boxes[index], int(index) / columns, int(index) % columns);
   }
-  ui.formatsLayout->setColumnStretch(0, 1);
-  ui.formatsLayout->setColumnStretch(1, columns == 2 ? 1 : 0);
+  // Each as wide as its names, in proportion.
+  ui.formatsLayout->setColumnStretch(0, widest[0]);
+  ui.formatsLayout->setColumnStretch(1, columns == 2 ? widest[1] : 0);
 }
 
 void ExportPanel::Private::updateButtons()

@@ -6,6 +6,7 @@
 #include "Look.h"
 #include "ui_FinishPage.h"
 
+#include <QFileInfo>
 #include <QUrl>
 
 namespace handeye
@@ -20,7 +21,20 @@ FinishPage::FinishPage(HandEyeWorkbench& workbench, QWidget* parent)
   connect(ui_->exports, &ExportPanel::reportRequested, &workbench_,
     [this](const QString& folder) { workbench_.writeReport(folder + QStringLiteral("/report")); });
   connect(&workbench_, &HandEyeWorkbench::reportWritten, this,
-    [this](const QString& path) { ui_->exports->addWrittenFile(path, tr("report of the validation")); });
+    [this](const QString& path)
+    {
+      ui_->exports->addWrittenFile(path, tr("report of the validation"));
+      showReport(path);
+    });
+  connect(ui_->exports, &ExportPanel::exported, &workbench_,
+    [this](const QStringList& files)
+    {
+      if (!files.isEmpty())
+      {
+        workbench_.setExported(ui_->exports->folder());
+      }
+    });
+  ui_->reportLabel->setOpenExternalLinks(true);
   connect(&workbench_, &HandEyeWorkbench::refused, this,
     [this](WizardStep step, const QString& message)
     {
@@ -56,20 +70,36 @@ void FinishPage::enter()
   if (ui_->exports->folder().isEmpty() || exportsOf_ != workbench_.sessionFolder())
   {
     exportsOf_ = workbench_.sessionFolder();
+    const QString report = exportsOf_ + QStringLiteral("/export/report/report.html");
+    showReport(QFileInfo::exists(report) ? report : QString());
     ui_->exports->setFolder(workbench_.sessionFolder() + QStringLiteral("/export"));
   }
   const bool isValidated = workbench_.validation() && workbench_.validation()->isUsable();
   ui_->exports->setReportEnabled(isValidated, isValidated ? QString() : tr("There is no validation yet: see the page Validation."));
 }
 
+/// Where it is seen without scrolling; nothing: there is none.
+void FinishPage::showReport(const QString& path)
+{
+  report_ = path;
+  ui_->reportLabel->setVisible(!path.isEmpty());
+  ui_->reportLabel->setText(tr("Report of the validation: %1").arg(linkTo(path, QFileInfo(path).fileName())));
+}
+
+/// With its colour: a label does not look at the palette's again when that changes.
+QString FinishPage::linkTo(const QString& path, const QString& words) const
+{
+  return QStringLiteral("<a href=\"%1\" style=\"color:%3\">%2</a>")
+    .arg(QUrl::fromLocalFile(path).toString(), words.toHtmlEscaped(), palette().color(QPalette::Link).name());
+}
+
 void FinishPage::refresh()
 {
   const QString folder = workbench_.sessionFolder();
-  // With its colour: a label does not look at the palette's again when that changes.
   ui_->sessionLabel->setText(folder.isEmpty()
       ? tr("No session is open.")
-      : tr("Everything is stored in <a href=\"%1\" style=\"color:%3\">%2</a>; nothing needs to be saved.")
-          .arg(QUrl::fromLocalFile(folder).toString(), folder.toHtmlEscaped(), palette().color(QPalette::Link).name()));
+      : tr("Everything is stored in %1; nothing needs to be saved.").arg(linkTo(folder, folder)));
+  showReport(report_);
   QStringList lines;
   for (const WizardStep step : { WizardStep::Stylus, WizardStep::Capture, WizardStep::Validation, WizardStep::Overlay })
   {

@@ -27,7 +27,11 @@ public:
   void refresh() override;
 
 private:
+  void showReport(const QString& path);
+  QString linkTo(const QString& path, const QString& words) const;
+
   std::unique_ptr<Ui::FinishPage> ui_;
+  QString report_;     ///< its file; empty while there is none
   QString exportsOf_;  ///< the session whose folder was offered
 };
 

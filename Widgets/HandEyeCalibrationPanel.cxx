@@ -179,6 +179,11 @@ void HandEyeCalibrationPanel::Private::connectRefusals()
     [this]
     {
       refusals.fill({});
+      // Where it was left, there it is gone on with.
+      if (const std::optional<WizardStep> left = workbench->storedStep())
+      {
+        q.goTo(*left);
+      }
       refresh();
     });
   const auto forgiving = [this](WizardStep of) { return [this, of] { forgive(of); }; };

@@ -217,7 +217,10 @@ void HandEyeWorkbench::setStreamNames(const DeviceSetup& setup)
 
 void HandEyeWorkbench::enterStep(WizardStep step)
 {
-  step_ = step;
+  if (std::exchange(step_, step) != step)
+  {
+    storeStep();
+  }
   const bool isMeasuring = latency_->isRunning();
   static const std::map<WizardStep, RoomScene> scenes = { { WizardStep::Stylus, RoomScene::Pivot },
     { WizardStep::Capture, RoomScene::Placements }, { WizardStep::Validation, RoomScene::OtherPlacements },

@@ -111,6 +111,11 @@ public:
   /// Called in this thread once everything that was to be stored by now is on the disk.
   void afterStoring(std::function<void()> then);
 
+  /// Whether there is anything in it that a person would miss.
+  bool isSessionUsed() const { return isSessionUsed_; }
+  /// Where a person was in the session that was opened, to go on there; nothing for a new one.
+  std::optional<WizardStep> storedStep() const { return storedStep_; }
+
   // Devices
   bool connectDevices(const DeviceSetup& setup);
   void setStreamNames(const DeviceSetup& setup);
@@ -149,6 +154,10 @@ public:
   double enoughPx() const { return enoughPx_; }
   bool isEnough() const;
   void writeReport(const QString& folder);
+  /// The calibration, as it is now, was exported to a folder.
+  void setExported(const QString& folder);
+  /// Where the calibration, as it is now, was exported to; empty: it was not.
+  QString exportedFolder() const;
 
   // Comparison
   /// What a person adds to the session's own samples.
@@ -180,6 +189,10 @@ public:
   static QString ownModel();
   static QString ownLandmarks();
   void registerLandmarks(const std::vector<Eigen::Vector3d>& points_Model, const std::vector<Eigen::Vector3d>& points_Phantom);
+  /// The landmarks with what was touched, as they come back with the session.
+  void storeLandmarks(const nlohmann::json& landmarks);
+  const nlohmann::json& storedLandmarks() const { return storedLandmarks_; }
+  void recallRegistration(const std::vector<Eigen::Vector3d>& points_Model, const std::vector<Eigen::Vector3d>& points_Phantom);
   /// @param madeForModel the mesh that it belongs to; empty: the one that is loaded
   void loadRegistration(const QString& path, const QString& madeForModel = {});
   void saveRegistration(const QString& path);
@@ -228,6 +241,8 @@ signals:
   /// Another session is being opened: nothing of the one before counts any more.
   void resultsForgotten();
   void sessionOpened();
+  /// There is something in the session now that a person would miss, or was when it was opened.
+  void sessionUsed();
   void cameraChanged();
   void stylusChanged();
   void ballChanged();
@@ -250,6 +265,8 @@ private:
   void restoreFiles(const std::map<std::string, nlohmann::json>& documents);
   void storeBall();
   void storeDevices();
+  void storeStep();
+  void setSessionUsed();
   void store(const std::string& name, const nlohmann::json& document);
   void setStylus(const Stylus& stylus, bool isNew);
   void storeModel();
@@ -285,6 +302,10 @@ private:
   int workSession_ = 0;  ///< of the work under way; belongs to the work's thread
   WizardStep step_ = WizardStep::Devices;
   QStringList sessionProblems_;
+  bool isSessionUsed_ = false;
+  QString exportedFolder_;
+  Eigen::Isometry3d exported_ = Eigen::Isometry3d::Identity();  ///< markerToCamera as it was exported
+  std::optional<WizardStep> storedStep_;
   QString storedComparison_;
   std::optional<Camera> camera_;
   std::optional<Stylus> stylus_;
@@ -299,6 +320,7 @@ private:
   QString modelPath_, wantedModelPath_, registeredModelPath_;
   std::optional<Eigen::Isometry3d> modelToPhantom_;
   std::optional<LandmarkRegistrationResult> registration_;
+  nlohmann::json storedLandmarks_;
 };
 
 }  // namespace handeye

@@ -2,56 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HandEyeWorkbench.h"
 
-#include "MeshReader.h"
-#include "OverlayPose.h"
+#include "JsonEigen.h"
 #include "ResultFiles.h"
 #include "ValidationReport.h"
 #include "WindowPlots.h"
 #include "WorkThread.h"
 
-#include <QCoreApplication>
-#include <QFileInfo>
-
-#include <dlfcn.h>
-#include <fstream>
 #include <utility>
 
 namespace handeye
 {
-
-namespace
-{
-
-/// The folder of the file that this code is a part of: the plugin, wherever it was installed, or a program.
-QString ownFolder()
-{
-  Dl_info info{};
-  const bool isKnown = dladdr(reinterpret_cast<const void*>(&ownFolder), &info) != 0 && info.dli_fname;
-  return isKnown ? QFileInfo(QString::fromLocal8Bit(info.dli_fname)).absolutePath() : QCoreApplication::applicationDirPath();
-}
-
-/// A file that is installed with the plugin, or lies in the source folder that it was built from.
-QString meshFile(const char* name)
-{
-  for (const QString& folder : { ownFolder() + QStringLiteral("/" HANDEYE_MESHES_FROM_MODULE), QStringLiteral(HANDEYE_MESHES_DIR) })
-  {
-    const QString file = folder + QLatin1Char('/') + QString::fromLatin1(name);
-    if (QFileInfo::exists(file))
-    {
-      return file;
-    }
-  }
-  return {};
-}
-
-/// A result file that was read already by the reader of its kind.
-nlohmann::json readDocument(const std::filesystem::path& path)
-{
-  std::ifstream file(path);
-  return nlohmann::json::parse(file);
-}
-
-}  // namespace
 
 /// Once for many changes, and not while one is under way.
 void HandEyeWorkbench::recalibrate()
@@ -148,7 +108,7 @@ void HandEyeWorkbench::loadCalibration(const QString& path)
     {
       const std::filesystem::path file = path.toStdString();
       const StoredCalibration stored = readCalibration(file);
-      nlohmann::json document = readDocument(file);
+      nlohmann::json document = readResult(file, "markerToCamera");
       const auto covariance = readCalibrationCovariance(file);
       const std::optional<CalibratedEye> right = readRightEye(file);
       tell(
@@ -185,6 +145,10 @@ void HandEyeWorkbench::revalidate()
     validation_ = validateCapture(frames, calibration_->camera, calibration_->calibration.markerToCamera);
     validation_->subject.ballRadiusMm = ball_.radiusMm;
     store("validation", validationJson(*validation_));
+  }
+  else if (frames.empty() && !validationCapture_->samples().isEmpty() && !validationCapture_->isStale())
+  {
+    store("validation", nlohmann::json());  // all were set aside
   }
   emit validationChanged();
   emit stateChanged();
@@ -231,108 +195,24 @@ void HandEyeWorkbench::writeReport(const QString& folder)
     });
 }
 
-QString HandEyeWorkbench::ownModel()
+void HandEyeWorkbench::setExported(const QString& folder)
 {
-  return meshFile("Vertebra.ply");
-}
-
-QString HandEyeWorkbench::ownLandmarks()
-{
-  return meshFile("VertebraLandmarks.txt");
-}
-
-void HandEyeWorkbench::loadModel(const QString& path)
-{
-  wantedModelPath_ = path;
-  beside(WizardStep::Overlay,
-    [this, path]
-    {
-      const OverlayMesh mesh = prepareOverlayMesh(readMesh(path.toStdString()));
-      tell(
-        [this, mesh, path]
-        {
-          if (path != wantedModelPath_)
-          {
-            return;  // another one was asked for meanwhile
-          }
-          model_ = mesh;
-          modelPath_ = path;
-          registeredModelPath_ = registeredModelPath_.isEmpty() ? path : registeredModelPath_;
-          storeModel();
-          emit modelChanged();
-          emit registrationChanged();
-          emit stateChanged();
-        });
-    });
-}
-
-void HandEyeWorkbench::storeModel()
-{
-  store("model", { { "file", modelPath_.toStdString() }, { "registeredFile", registeredModelPath_.toStdString() } });
-}
-
-void HandEyeWorkbench::setModelToPhantom(const std::optional<Eigen::Isometry3d>& modelToPhantom, const QString& madeForModel)
-{
-  modelToPhantom_ = modelToPhantom;
-  registeredModelPath_ = madeForModel.isEmpty() ? modelPath_ : madeForModel;
-  if (!modelPath_.isEmpty())
+  if (calibration_ && calibration_->isUsable())
   {
-    storeModel();
+    exportedFolder_ = folder;
+    exported_ = calibration_->calibration.markerToCamera;
+    store("export", { { "folder", folder.toStdString() }, { "markerToCamera", toJson(exported_) } });
+    emit stateChanged();
   }
-  emit registrationChanged();
-  emit stateChanged();
 }
 
-bool HandEyeWorkbench::isRegisteredForAnotherModel() const
+QString HandEyeWorkbench::exportedFolder() const
 {
-  return modelToPhantom_ && !modelPath_.isEmpty() && registeredModelPath_ != modelPath_;
-}
-
-void HandEyeWorkbench::keepRegistration()
-{
-  setModelToPhantom(modelToPhantom_, modelPath_);
-}
-
-void HandEyeWorkbench::registerLandmarks(
-  const std::vector<Eigen::Vector3d>& points_Model, const std::vector<Eigen::Vector3d>& points_Phantom)
-{
-  beside(WizardStep::Overlay,
-    [this, points_Model, points_Phantom, touchedModel = modelPath_]
-    {
-      const LandmarkRegistrationResult result = handeye::registerLandmarks(points_Model, points_Phantom);
-      tell(
-        [this, result, touchedModel]
-        {
-          registration_ = result;
-          // One that was refused does not come back with the session.
-          store("phantom", result.isUsable() ? phantomJson(result) : nlohmann::json());
-          setModelToPhantom(result.isUsable() ? std::optional(result.modelToPhantom) : std::nullopt, touchedModel);
-        });
-    });
-}
-
-void HandEyeWorkbench::loadRegistration(const QString& path, const QString& madeForModel)
-{
-  beside(WizardStep::Overlay,
-    [this, path, madeForModel]
-    {
-      const Eigen::Isometry3d modelToPhantom = readPhantomRegistration(path.toStdString());
-      tell(
-        [this, modelToPhantom, madeForModel, document = readDocument(path.toStdString())]
-        {
-          store("phantom", document);
-          registration_.reset();
-          setModelToPhantom(modelToPhantom, madeForModel);
-        });
-    });
-}
-
-void HandEyeWorkbench::saveRegistration(const QString& path)
-{
-  if (registration_ && registration_->isUsable())
-  {
-    beside(WizardStep::Overlay, [path, document = phantomJson(*registration_)] { writeJson(path.toStdString(), document); });
-  }
+  // Far below what any tracker or program tells apart, and far above what a calibration made anew differs by.
+  constexpr double SamePose = 1e-6;
+  const bool isSame = calibration_ && calibration_->isUsable() &&
+    (calibration_->calibration.markerToCamera.matrix() - exported_.matrix()).cwiseAbs().maxCoeff() < SamePose;
+  return isSame ? exportedFolder_ : QString();
 }
 
 }  // namespace handeye

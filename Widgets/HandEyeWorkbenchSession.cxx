@@ -3,12 +3,18 @@
 #include "HandEyeWorkbench.h"
 
 #include "ResultFiles.h"
+#include "SessionMemory.h"
 #include "WorkThread.h"
 
 #include <QDateTime>
 #include <QDir>
 #include <QFileInfo>
-#include <QStandardPaths>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <vector>
 
 namespace handeye
 {
@@ -30,6 +36,30 @@ QString text(const json& object, const char* key, const QString& otherwise)
   return value.is_string() ? QString::fromStdString(value.get<std::string>()) : otherwise;
 }
 
+/// Of the steps in the session's files, in the wizard's order.
+constexpr std::array<const char*, WizardStepCount> StepWords = { "devices", "camera", "stylus", "ball", "capture", "validation",
+  "comparison", "overlay", "finish" };
+
+std::optional<WizardStep> stepOf(const QString& word)
+{
+  const auto found = std::find(StepWords.begin(), StepWords.end(), word);
+  return found == StepWords.end() ? std::nullopt : std::optional(WizardStep(found - StepWords.begin()));
+}
+
+/// Of a matrix, row by row; empty if it is none.
+std::vector<double> numbersOf(const json& rows)
+{
+  std::vector<double> numbers;
+  for (const json& row : rows.is_array() ? rows : json::array())
+  {
+    for (const json& each : row.is_array() ? row : json::array())
+    {
+      numbers.push_back(each.is_number() ? each.get<double>() : std::nan(""));
+    }
+  }
+  return numbers;
+}
+
 json entry(const std::map<std::string, json>& documents, const char* name)
 {
   const auto found = documents.find(name);
@@ -40,7 +70,7 @@ json entry(const std::map<std::string, json>& documents, const char* name)
 
 QString HandEyeWorkbench::newSessionFolder()
 {
-  const QDir folder(QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + QStringLiteral("/HandEyeCalibration"));
+  const QDir folder(sessionsFolder());
   const QString name = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd_HH-mm-ss"));
   QString path = folder.filePath(name);
   for (int i = 2; QFileInfo::exists(path); ++i)
@@ -66,9 +96,13 @@ void HandEyeWorkbench::openSession(const QString& folder)
   registeredModelPath_.clear();
   modelToPhantom_.reset();
   registration_.reset();
+  storedLandmarks_ = {};
   comparison_->clear();
   storedComparison_.clear();
   sessionProblems_.clear();
+  isSessionUsed_ = false;
+  exportedFolder_.clear();
+  storedStep_.reset();
   emit resultsForgotten();
   emit modelChanged();
   emit registrationChanged();
@@ -92,6 +126,32 @@ void HandEyeWorkbench::afterStoring(std::function<void()> then)
 void HandEyeWorkbench::store(const std::string& name, const json& document)
 {
   capture_->setDocument(name, document);
+  static const std::set<std::string> results = { "stylus", "calibration", "validation", "phantom" };
+  if (!document.is_null() && results.count(name) > 0)
+  {
+    setSessionUsed();
+  }
+}
+
+/// From now on it is the one to be gone on with next time.
+void HandEyeWorkbench::setSessionUsed()
+{
+  if (!isSessionUsed_ && capture_->isOpen())
+  {
+    isSessionUsed_ = true;
+    rememberSession(sessionFolder());
+    storeStep();
+    emit sessionUsed();
+  }
+}
+
+/// An empty session is not written to for having been looked at.
+void HandEyeWorkbench::storeStep()
+{
+  if (isSessionUsed_)
+  {
+    store("wizard", { { "step", StepWords[std::size_t(step_)] } });
+  }
 }
 
 void HandEyeWorkbench::storeBall()
@@ -154,16 +214,43 @@ void HandEyeWorkbench::takeDocuments(const std::map<std::string, json>& document
   if (devices.is_object() && !devices_->isConnected())
   {
     DeviceSetup setup = devices_->setup();
+    const int kind = int(number(devices, "kind", double(setup.kind)));
+    setup.kind = kind >= 0 && kind <= int(DeviceSetup::Kind::Recording) ? DeviceSetup::Kind(kind) : setup.kind;
+    const json servers = devices.value("servers", json());
+    setup.servers.clear();
+    for (const json& server : servers.is_array() ? servers : json::array())
+    {
+      setup.servers << (server.is_string() ? QString::fromStdString(server.get<std::string>()) : QString());
+    }
+    setup.servers.removeAll({});
+    setup.camera = text(devices, "camera", {});
+    setup.recording = text(devices, "recording", {});
     setup.stylusToTracker = text(devices, "stylusToTracker", setup.stylusToTracker);
     setup.markerToTracker = text(devices, "markerToTracker", setup.markerToTracker);
     setup.phantomToTracker = text(devices, "phantomToTracker", setup.phantomToTracker);
     setup.image = text(devices, "image", setup.image);
     setup.rightImage = text(devices, "rightImage", setup.rightImage);
-    devices_->setNames(setup);
+    devices_->prepare(setup);
   }
   // It belongs to the samples as well, whatever is connected.
   devices_->setLatency(number(devices, "latencySec", devices_->setup().latencySec));
+  if (const json exported = entry(documents, "export"); exported.is_object())
+  {
+    const std::vector<double> numbers = numbersOf(exported.value("markerToCamera", json()));
+    if (numbers.size() == 16)
+    {
+      exportedFolder_ = text(exported, "folder", {});
+      exported_.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+    }
+  }
+  storedLandmarks_ = entry(documents, "landmarks");
+  storedStep_ = stepOf(text(entry(documents, "wizard"), "step", {}));
   restoreFiles(documents);
+  if (capture_->storedSampleCount() > 0 || entry(documents, "stylus").is_object() || entry(documents, "calibration").is_object() ||
+    entry(documents, "phantom").is_object())
+  {
+    setSessionUsed();
+  }
   emit ballChanged();
   emit sessionOpened();
   emit happened(tr("session %1").arg(capture_->folder()));

@@ -40,8 +40,15 @@ QString HandEyeWorkbench::missingFor(WizardStep step) const
 
 bool HandEyeWorkbench::isDone(WizardStep step) const
 {
-  return step == WizardStep::Comparison ? comparison_->result() != nullptr
-                                        : step != WizardStep::Finish && problemOf(step).isEmpty();
+  switch (step)
+  {
+    case WizardStep::Comparison:
+      return comparison_->result() != nullptr;
+    case WizardStep::Finish:
+      return !exportedFolder().isEmpty();
+    default:
+      return problemOf(step).isEmpty();
+  }
 }
 
 QString HandEyeWorkbench::problemOf(WizardStep step) const

@@ -46,7 +46,7 @@ HostLink::HostLink(HandEyeWorkbench& workbench, NavigationHost& host)
   }
   connect(&workbench_, &HandEyeWorkbench::happened, this,
     [this](const QString& message) { host_.log(NavigationHost::LogLevel::Info, message); });
-  connect(&workbench_, &HandEyeWorkbench::sessionOpened, this, [this] { host_.addRecentFile(workbench_.sessionFolder()); });
+  connect(&workbench_, &HandEyeWorkbench::sessionUsed, this, [this] { host_.addRecentFile(workbench_.sessionFolder()); });
 }
 
 HostLink::~HostLink()

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OverlayPage.h"
 
+#include "LandmarkDocument.h"
 #include "LandmarkPanel.h"
 #include "ui_OverlayPage.h"
 
@@ -11,6 +12,7 @@
 #include <QMap>
 #include <QPainter>
 #include <QPixmap>
+#include <QScopedValueRollback>
 #include <QSignalBlocker>
 
 #include <algorithm>
@@ -21,6 +23,7 @@ namespace handeye
 namespace
 {
 
+constexpr int FewestLandmarks = 3;
 constexpr int TipIntervalMs = 50;  // between two looks at where the stylus' tip is
 
 /// A red disc while it is recorded, a grey ring otherwise.
@@ -68,7 +71,12 @@ OverlayPage::OverlayPage(HandEyeWorkbench& workbench, QWidget* parent)
     [this]
     {
       const LandmarkPanel::Pairs pairs = ui_->landmarks->pairs();
-      if (pairs.landmarks.size() < 3)
+      if (areLandmarksOfAnotherTime_)
+      {
+        return;
+      }
+      workbench_.storeLandmarks(landmarksJson(ui_->landmarks->landmarks(), touchedModel_));
+      if (pairs.landmarks.size() < FewestLandmarks)
       {
         ui_->landmarks->setResult({});
         return;
@@ -82,7 +90,13 @@ OverlayPage::OverlayPage(HandEyeWorkbench& workbench, QWidget* parent)
   connect(ui_->keepButton, &QPushButton::clicked, &workbench_, &HandEyeWorkbench::keepRegistration);
   ui_->keepButton->hide();
   connect(&workbench_, &HandEyeWorkbench::modelChanged, this, &OverlayPage::takeModel);
-  connect(&workbench_, &HandEyeWorkbench::resultsForgotten, this, &OverlayPage::forgetTouched);
+  connect(&workbench_, &HandEyeWorkbench::resultsForgotten, this,
+    [this]
+    {
+      const QScopedValueRollback<bool> others(areLandmarksOfAnotherTime_, true);
+      forgetTouched();
+    });
+  connect(&workbench_, &HandEyeWorkbench::sessionOpened, this, &OverlayPage::recallLandmarks);
   setState({});
   tipTimer_.setInterval(TipIntervalMs);
   connect(&tipTimer_, &QTimer::timeout, this, &OverlayPage::followTip);
@@ -113,6 +127,24 @@ void OverlayPage::forgetTouched()
     ui_->landmarks->clearTouched();
   }
   touchedModel_.clear();
+}
+
+/// What was touched comes back with its session, and is not touched anew by that.
+void OverlayPage::recallLandmarks()
+{
+  const QVector<LandmarkPanel::Landmark> landmarks = landmarksOf(workbench_.storedLandmarks());
+  if (landmarks.isEmpty())
+  {
+    return;
+  }
+  const QScopedValueRollback<bool> others(areLandmarksOfAnotherTime_, true);
+  touchedModel_ = landmarksModelOf(workbench_.storedLandmarks());
+  ui_->landmarks->setLandmarks(landmarks);
+  const LandmarkPanel::Pairs pairs = ui_->landmarks->pairs();
+  if (pairs.landmarks.size() >= FewestLandmarks)
+  {
+    workbench_.recallRegistration(pairs.points_Model, pairs.points_Phantom);
+  }
 }
 
 /// Landmarks that were touched for another mesh do not place this one.

@@ -49,6 +49,7 @@ private:
   void followTip();
   void takeTip();
   void forgetTouched();
+  void recallLandmarks();
   void takeModel();
   void offerOwnLandmarks();
   void showRegistration();
@@ -58,7 +59,8 @@ private:
 
   std::unique_ptr<Ui::OverlayPage> ui_;
   TouchTask::Touch touch_;
-  QString touchedModel_;  ///< the mesh that the landmarks belong to
+  bool areLandmarksOfAnotherTime_ = false;  ///< while they are forgotten or come back: nothing is stored or calculated
+  QString touchedModel_;                    ///< the mesh that the landmarks belong to
   QTimer tipTimer_;
   OverlayLook look_;
   bool isRecording_ = false;

@@ -70,16 +70,6 @@ OverlayPresenter::OverlayPresenter(HandEyeWorkbench& workbench, VideoView& view,
   connect(&workbench, &HandEyeWorkbench::sessionOpened, this, &OverlayPresenter::stopRecording);
   connect(&view, &VideoView::rendered, this, &OverlayPresenter::record);
   connect(recording_, &OverlayRecordingTask::changed, this, &OverlayPresenter::recordingChanged);
-  // A model on a picture that stands still looks right and is not.
-  silence_.setSingleShot(true);
-  silence_.setInterval(1500);
-  connect(&silence_, &QTimer::timeout, this,
-    [this]
-    {
-      forget();
-      hide(tr("No new picture has come for 1.5 s: the model is not drawn on an old one."));
-      view_.requestRender();
-    });
   for (vtkHandEyeOverlayPipeline* pipeline : { view_.pipeline(), view_.rightPipeline() })
   {
     pipeline->SetModelVisible(false);
@@ -185,16 +175,24 @@ void OverlayPresenter::show(const LiveView& shown)
   }
 }
 
+void OverlayPresenter::leaveOldPicture(int silentMs)
+{
+  if (isWanted())
+  {
+    forget();
+    hide(tr("No new picture has come for %1 s: the model is not drawn on an old one.").arg(silentMs / 1000.0, 0, 'f', 1));
+    view_.requestRender();
+  }
+}
+
 void OverlayPresenter::draw(const LiveView& shown, OverlayTransformSet& transforms)
 {
   if (!isWanted())
   {
-    silence_.stop();
     forget();
     hide({});
     return;
   }
-  silence_.start();
   if (!workbench_.model())
   {
     forget();

@@ -9,7 +9,6 @@
 #include "VideoView.h"
 
 #include <QObject>
-#include <QTimer>
 
 #include <memory>
 #include <optional>
@@ -53,6 +52,9 @@ public:
 
   /// The frame that the view has now.
   void show(const LiveView& shown);
+
+  /// No picture has come for so long: a model on one that stands still looks right and is not.
+  void leaveOldPicture(int silentMs);
 
   void setLook(const OverlayLook& look);
   const OverlayLook& look() const { return look_; }
@@ -123,7 +125,6 @@ private:
   OverlayStereo stereo_;
   OverlayRecordingTask* recording_;
   std::optional<NextPicture> next_;
-  QTimer silence_;  ///< runs out when no picture comes any more
 };
 
 }  // namespace handeye

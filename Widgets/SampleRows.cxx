@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SampleRows.h"
 
+#include "Look.h"
+
 #include <QCoreApplication>
 
 #include <map>
@@ -87,6 +89,10 @@ QVector<SampleRow> validationRows(const QMap<int, CaptureSample>& samples, const
   QVector<SampleRow> rows;
   for (const CaptureSample& sample : samples)
   {
+    if (sample.isDeleted)
+    {
+      continue;
+    }
     SampleRow row = rowOf(sample);
     const auto found = frames.find(sample.id);
     if (found != frames.end() && found->second->validated && found->second->status == "ok")
@@ -100,6 +106,19 @@ QVector<SampleRow> validationRows(const QMap<int, CaptureSample>& samples, const
     rows.push_back(row);
   }
   return rows;
+}
+
+QString importedWords(int taken, int refused, const QString& reason)
+{
+  QString text = taken == 0 ? words("Nothing was taken from the recording.")
+                            : counted(taken, words("1 sample from the recording."), words("%1 samples from the recording."));
+  if (refused > 0)
+  {
+    text += QLatin1Char(' ') +
+      (refused == 1 ? words("1 frame was left out: %1").arg(reason)
+                    : words("%1 frames were left out, the first: %2").arg(QString::number(refused), reason));
+  }
+  return text;
 }
 
 }  // namespace handeye

@@ -108,6 +108,12 @@ void SampleTable::setResidualTitle(const QString& title)
   d->fitColumns();
 }
 
+void SampleTable::addUndoableSamples(const QVector<int>& ids, const QString& text)
+{
+  d->push(
+    text, [this, ids] { emit restoreRequested(ids); }, [this, ids] { emit deleteRequested(ids); });
+}
+
 void SampleTable::clearHistory()
 {
   d->stack->clear();

@@ -38,6 +38,9 @@ public:
   /// Title of the residual's columns, where they are none of a fit: tr("Error").
   void setResidualTitle(const QString& title);
 
+  /// These samples were added at once, by a recording: undoing asks for them to be deleted. @param text of what was done: "take 12
+  /// samples"
+  void addUndoableSamples(const QVector<int>& ids, const QString& text);
   /// Forgets what can be undone: another session.
   void clearHistory();
   QUndoStack* undoStack() const;

@@ -3,11 +3,15 @@
 #include "ValidationPage.h"
 
 #include "ErrorDistancePlot.h"
+#include "Look.h"
 #include "SampleRows.h"
 #include "StatisticsTable.h"
 #include "ui_ValidationPage.h"
 
 #include <QFileDialog>
+
+#include <algorithm>
+#include <utility>
 
 namespace handeye
 {
@@ -56,6 +60,18 @@ ValidationPage::ValidationPage(HandEyeWorkbench& workbench, QWidget* parent)
   connect(ui_->againButton, &QPushButton::clicked, &capture, &CaptureTask::evaluateAgain);
   connect(&capture, &CaptureTask::hintChanged, this, [this] { ui_->hintLabel->setText(workbench_.validationCapture().hint()); });
   connect(&capture, &CaptureTask::accepted, this, [this](int id) { ui_->hintLabel->setText(tr("Sample %1 is stored.").arg(id)); });
+  connect(&capture, &CaptureTask::imported, this,
+    [this](const QVector<int>& ids, int refused, const QString& reason)
+    { ui_->hintLabel->setText(importedWords(ids.size(), refused, reason)); });
+  connect(&capture, &CaptureTask::samplesChanged, this, &ValidationPage::showStartOver);
+  connect(ui_->startOverButton, &QPushButton::clicked, this, &ValidationPage::startOver);
+  connect(&workbench_, &HandEyeWorkbench::resultsForgotten, this,
+    [this]
+    {
+      setAside_.clear();
+      ui_->hintLabel->clear();
+    });
+  showStartOver();
   connect(&workbench_, &HandEyeWorkbench::validationChanged, this, &ValidationPage::showValidation);
 }
 
@@ -93,6 +109,45 @@ void ValidationPage::showValidation()
   ui_->verdictLabel->setVisible(!ui_->verdictLabel->text().isEmpty());
 }
 
+/// A page is validated as a whole: single placements that look bad are not to be picked out.
+void ValidationPage::startOver()
+{
+  CaptureTask& capture = workbench_.validationCapture();
+  if (!setAside_.isEmpty())
+  {
+    capture.setDeleted(std::exchange(setAside_, {}), false);
+    ui_->hintLabel->setText(tr("The placements of before are back."));
+    return;
+  }
+  QVector<int> ids;
+  for (const CaptureSample& sample : capture.samples())
+  {
+    if (!sample.isDeleted)
+    {
+      ids << sample.id;
+    }
+  }
+  setAside_ = ids;
+  capture.setDeleted(ids, true);
+  ui_->hintLabel->setText(counted(ids.size(), tr("1 placement is set aside; the next one begins a new validation."),
+    tr("%1 placements are set aside; the next one begins a new validation.")));
+}
+
+void ValidationPage::showStartOver()
+{
+  const QMap<int, CaptureSample>& samples = workbench_.validationCapture().samples();
+  const bool isAny = std::any_of(samples.begin(), samples.end(), [](const CaptureSample& sample) { return !sample.isDeleted; });
+  if (isAny)
+  {
+    setAside_.clear();
+  }
+  ui_->startOverButton->setText(setAside_.isEmpty() ? tr("Start &over") : tr("Bring &back"));
+  ui_->startOverButton->setToolTip(setAside_.isEmpty()
+      ? tr("Sets all placements of the validation aside, which a wrong recording may have brought, and begins anew")
+      : tr("Brings the placements back that were set aside"));
+  ui_->startOverButton->setEnabled((isAny || !setAside_.isEmpty()) && !workbench_.validationCapture().isBusy());
+}
+
 void ValidationPage::refresh()
 {
   const bool isReady = workbench_.missingFor(WizardStep::Validation).isEmpty();
@@ -101,6 +156,7 @@ void ValidationPage::refresh()
   ui_->takeButton->setEnabled(isReady && isLive);
   ui_->recordingButton->setEnabled(isReady && !workbench_.validationCapture().isBusy());
   ui_->againButton->setVisible(workbench_.validationCapture().isBroken());
+  showStartOver();
 }
 
 }  // namespace handeye

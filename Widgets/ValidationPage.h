@@ -29,8 +29,12 @@ public:
 
 private:
   void showValidation();
+  /// All placements are set aside, or those that were come back.
+  void startOver();
+  void showStartOver();
 
   std::unique_ptr<Ui::ValidationPage> ui_;
+  QVector<int> setAside_;  ///< ids of the last start over, until something new is taken
 };
 
 }  // namespace handeye

@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr int OutlinePoints = 64;
-constexpr int SilenceMs = 2500;
+constexpr int SilenceMs = 1500;
 
 QPointF toPoint(const Eigen::Vector2d& point_Image)
 {
@@ -62,8 +62,12 @@ VideoPresenter::VideoPresenter(HandEyeWorkbench& workbench, VideoView& view, QOb
   // A picture that stands still looks live, and is not.
   silence_.setSingleShot(true);
   silence_.setInterval(SilenceMs);
-  connect(
-    &silence_, &QTimer::timeout, this, [this] { view_.setBanner(tr("No new picture arrives: this one is old."), Level::Error); });
+  connect(&silence_, &QTimer::timeout, this,
+    [this]
+    {
+      view_.setBanner(tr("No new picture arrives: this one is old."), Level::Error);
+      overlay_->leaveOldPicture(SilenceMs);
+    });
   connect(&workbench_.devices(), &DeviceHub::connectionChanged, this,
     [this]
     {

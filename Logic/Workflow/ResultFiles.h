@@ -31,6 +31,10 @@ nlohmann::json registrationJson(const PointLineResult& result);          ///< wh
 /// Writes a result with two spaces of indentation, atomically. @throws io::FileError
 void writeJson(const std::filesystem::path& path, const nlohmann::json& json);
 
+/// All of a result file, to be kept as it is. @param key one that its kind has: "tip_Stylus_Mm"
+/// @throws io::FileError if it is no such file, or its status is not "ok"
+nlohmann::json readResult(const std::filesystem::path& path, const char* key);
+
 /// What later steps need of a stylus.json. @throws io::FileError naming the key; also where the file's status is not "ok"
 Eigen::Vector3d readStylusTip(const std::filesystem::path& path);
 

@@ -23,45 +23,6 @@ namespace
 using nlohmann::json;
 using Path = std::filesystem::path;
 
-/// A result file of this kind that says of itself that it is usable.
-json readResult(const Path& path, const char* key)
-{
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-  {
-    throw io::FileError(path, "the file cannot be opened");
-  }
-  json object;
-  try
-  {
-    object = json::parse(file);
-  }
-  catch (const json::exception& error)
-  {
-    throw io::FileError(path, "this is " + io::jsonProblem(error) + "; expected a file with \"" + key + "\", as handeye writes it");
-  }
-  if (!object.is_object())
-  {
-    throw io::FileError(path, "a JSON object is expected");
-  }
-  const json status = object.value("status", json("ok"));
-  if (status != "ok")
-  {
-    const json message = object.value("message", json(""));
-    throw io::FileError(path,
-      "the file holds no usable result, its status is " + status.dump() +
-        (message.is_string() && !message.get<std::string>().empty() ? " (" + message.get<std::string>() + ")" : ""));
-  }
-  if (!object.contains(key))
-  {
-    const json schema = object.value("schema", json());
-    throw io::FileError(path,
-      std::string("the key \"") + key + "\" is missing" +
-        (schema.is_string() ? ", this is a file of the kind " + schema.dump() : std::string()));
-  }
-  return object;
-}
-
 double readNumber(const Path& path, const json& value, const std::string& key)
 {
   if (!value.is_number() || !std::isfinite(value.get<double>()))
@@ -133,6 +94,44 @@ template<int size> Eigen::Matrix<double, size, size> readCovariance(const Path& 
 }
 
 }  // namespace
+
+json readResult(const Path& path, const char* key)
+{
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path))
+  {
+    throw io::FileError(path, "the file cannot be opened");
+  }
+  json object;
+  try
+  {
+    object = json::parse(file);
+  }
+  catch (const json::exception& error)
+  {
+    throw io::FileError(path, "this is " + io::jsonProblem(error) + "; expected a file with \"" + key + "\", as handeye writes it");
+  }
+  if (!object.is_object())
+  {
+    throw io::FileError(path, "a JSON object is expected");
+  }
+  const json status = object.value("status", json("ok"));
+  if (status != "ok")
+  {
+    const json message = object.value("message", json(""));
+    throw io::FileError(path,
+      "the file holds no usable result, its status is " + status.dump() +
+        (message.is_string() && !message.get<std::string>().empty() ? " (" + message.get<std::string>() + ")" : ""));
+  }
+  if (!object.contains(key))
+  {
+    const json schema = object.value("schema", json());
+    throw io::FileError(path,
+      std::string("the key \"") + key + "\" is missing" +
+        (schema.is_string() ? ", this is a file of the kind " + schema.dump() : std::string()));
+  }
+  return object;
+}
 
 Eigen::Vector3d readStylusTip(const Path& path)
 {

@@ -7,6 +7,7 @@
 #include "ResultFiles.h"
 #include "SampleTable.h"
 #include "WidgetTestSupport.h"
+#include "WizardDemo.h"
 #include "WizardDriver.h"
 #include "WizardPage.h"
 #include "WizardStepBar.h"
@@ -28,11 +29,6 @@ using handeye::WizardStep;
 
 namespace
 {
-
-QString demo(const char* name)
-{
-  return QStringLiteral(HANDEYE_RESOURCES_DIR "/Demo/") + QString::fromLatin1(name);
-}
 
 Eigen::Isometry3d trueMarkerToCamera()
 {
@@ -59,24 +55,6 @@ void expectTruth(const HandEyeWorkbench& workbench)
   QVERIFY(mahalanobis < 4.5);  // the 99.7 % quantile of chi with 6 degrees of freedom, what 3 sigma are for one
   QVERIFY(turn.angle() < 0.5 / 57.2958);
   QVERIFY(error.translation().norm() < 3);
-}
-
-/// Camera and stylus from files, so that captures can be taken.
-void loadInputs(HandEyeCalibrationPanel& panel)
-{
-  QVERIFY(panel.openFile(demo("camera.yml")));
-  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().camera().has_value(), PatienceMs);
-  panel.goTo(WizardStep::Stylus);
-  QVERIFY(panel.openFile(demo("pivot.igs.mha")));
-  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().stylus().has_value(), PatienceMs);
-  panel.goTo(WizardStep::Capture);
-}
-
-void importCapture(HandEyeCalibrationPanel& panel)
-{
-  QVERIFY(panel.openFile(demo("calibration")));
-  QTRY_VERIFY_WITH_TIMEOUT(!panel.workbench().capture().isBusy() && panel.workbench().capture().samples().size() > 10, PatienceMs);
-  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().calibration() && panel.workbench().calibration()->isUsable(), PatienceMs);
 }
 
 /// Collects samples and dies of SIGKILL in the middle.

@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A session that is left and gone on with: where it was left, what was touched and exported, and what a wrong recording brought.
+#include "ExportPanel.h"
+#include "LandmarkFiles.h"
+#include "LandmarkPanel.h"
+#include "SampleTable.h"
+#include "SessionMemory.h"
+#include "WidgetTestSupport.h"
+#include "WizardDemo.h"
+#include "WizardPage.h"
+
+#include <QCheckBox>
+#include <QTemporaryDir>
+#include <QUndoStack>
+
+using handeye::HandEyeWorkbench;
+using handeye::LandmarkPanel;
+using handeye::WizardStep;
+
+namespace
+{
+
+QVector<LandmarkPanel::Landmark> demoLandmarks()
+{
+  const auto lists =
+    handeye::readLandmarkLists(demo("phantom_model_points.txt").toStdString(), demo("phantom_touched_points.txt").toStdString());
+  QVector<LandmarkPanel::Landmark> landmarks;
+  for (std::size_t i = 0; i < lists.points_Model.size(); ++i)
+  {
+    landmarks.append({ QString(), lists.points_Model[i], lists.points_Phantom[i], false });
+  }
+  return landmarks;
+}
+
+}  // namespace
+
+class WizardSessionTest : public QObject
+{
+  Q_OBJECT
+
+private slots:
+  void import_IsUndoneAndMadeAgain();
+  void validation_StartsOverAndComesBack();
+  void reopened_GoesOnWhereItWasLeft();
+  void lastSession_IsOfferedUntilThisOneIsUsed();
+  void devices_OfTheSessionStandThereAgain();
+};
+
+/// A wrong recording is mixed in at once, and taken out at once.
+void WizardSessionTest::import_IsUndoneAndMadeAgain()
+{
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  testing_widgets::show(panel, QSize(1280, 800));
+  loadInputs(panel);
+  importCapture(panel);
+  HandEyeWorkbench& workbench = panel.workbench();
+  auto* const table = panel.page(WizardStep::Capture)->findChild<handeye::SampleTable*>();
+  QTRY_COMPARE_WITH_TIMEOUT(table->undoStack()->count(), 1, PatienceMs);
+  const int good = table->rows().size();
+  QSignalSpy imported(&workbench.capture(), &handeye::CaptureTask::imported);
+  QVERIFY(panel.openFile(demo("validation")));
+  QVERIFY(imported.wait(PatienceMs));
+  QTRY_VERIFY_WITH_TIMEOUT(table->rows().size() > good, PatienceMs);
+  const int both = table->rows().size();
+  WizardDriver driver(panel);
+  QVERIFY2(driver.onPage<QLabel>("hintLabel")->text().contains(QStringLiteral("Undo")), "said where to go back");
+  table->undo();
+  QTRY_COMPARE_WITH_TIMEOUT(table->rows().size(), good, PatienceMs);
+  QTRY_COMPARE_WITH_TIMEOUT(int(workbench.calibration()->frames.size()), good, PatienceMs);
+  table->redo();
+  QTRY_COMPARE_WITH_TIMEOUT(table->rows().size(), both, PatienceMs);
+  table->undo();
+  table->undo();
+  QTRY_VERIFY_WITH_TIMEOUT(table->rows().isEmpty() && !driver.canGoNext(), PatienceMs);
+}
+
+void WizardSessionTest::validation_StartsOverAndComesBack()
+{
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  testing_widgets::show(panel, QSize(1280, 800));
+  loadInputs(panel);
+  importCapture(panel);
+  HandEyeWorkbench& workbench = panel.workbench();
+  panel.goTo(WizardStep::Validation);
+  WizardDriver driver(panel);
+  auto* const again = driver.onPage("startOverButton");
+  QVERIFY(!again->isEnabled());
+  QVERIFY(panel.openFile(demo("validation")));
+  QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext() && !workbench.validationCapture().isBusy(), PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(again->isEnabled(), PatienceMs);
+  QTRY_COMPARE_WITH_TIMEOUT(
+    workbench.validation()->projectionErrorPx.count, workbench.validationCapture().samples().size(), PatienceMs);
+  const int count = workbench.validation()->projectionErrorPx.count;
+  const auto* const table = driver.onPage<handeye::SampleTable>("table");
+  driver.click(again);
+  QTRY_VERIFY_WITH_TIMEOUT(!workbench.validation() && !driver.canGoNext(), PatienceMs);
+  QVERIFY(table->rows().isEmpty());
+  bool isStored = false;
+  workbench.afterStoring([&isStored] { isStored = true; });
+  QTRY_VERIFY_WITH_TIMEOUT(isStored, PatienceMs);
+  QVERIFY2(!handeye::summarizeSession(workbench.sessionFolder()).isValidated, "what was set aside validates nothing");
+  driver.click(again);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && driver.canGoNext(), PatienceMs);
+  QCOMPARE(workbench.validation()->projectionErrorPx.count, count);
+}
+
+void WizardSessionTest::reopened_GoesOnWhereItWasLeft()
+{
+  const QTemporaryDir parent;
+  const QString folder = parent.filePath(QStringLiteral("session"));
+  double rmsMm = 0;
+  {
+    HandEyeCalibrationPanel panel(nullptr, nullptr);
+    HandEyeWorkbench& workbench = panel.workbench();
+    workbench.openSession(folder);
+    QSignalSpy opened(&workbench, &HandEyeWorkbench::sessionOpened);
+    QVERIFY(opened.wait(PatienceMs));
+    testing_widgets::show(panel, QSize(1280, 800));
+    loadInputs(panel);
+    importCapture(panel);
+    panel.goTo(WizardStep::Overlay);
+    QTRY_VERIFY_WITH_TIMEOUT(workbench.model(), PatienceMs);
+    panel.findChild<LandmarkPanel*>()->setLandmarks(demoLandmarks());
+    QTRY_VERIFY_WITH_TIMEOUT(workbench.registration() && workbench.registration()->isUsable(), PatienceMs);
+    rmsMm = workbench.registration()->rmsMm;
+    panel.goTo(WizardStep::Finish);
+    auto* const exports = panel.findChild<handeye::ExportPanel*>();
+    exports->setFormats({ QStringLiteral("text") });
+    QVERIFY(!workbench.isDone(WizardStep::Finish));
+    QVERIFY(exports->exportNow());
+    QVERIFY(workbench.isDone(WizardStep::Finish));
+    panel.goTo(WizardStep::Overlay);
+  }
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  testing_widgets::show(panel, QSize(1280, 800));
+  HandEyeWorkbench& workbench = panel.workbench();
+  QVERIFY(panel.openFile(folder));
+  QTRY_COMPARE_WITH_TIMEOUT(panel.currentStep(), WizardStep::Overlay, PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.registration(), PatienceMs);
+  QCOMPARE(workbench.registration()->rmsMm, rmsMm);
+  const auto* const landmarks = panel.findChild<LandmarkPanel*>();
+  QCOMPARE(landmarks->pairs().landmarks.size(), demoLandmarks().size());
+  QVERIFY(landmarks->result() && landmarks->result()->isUsable());
+  QVERIFY(!workbench.isRegisteredForAnotherModel());
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.calibration() && workbench.calibration()->isUsable(), PatienceMs);
+  QVERIFY(workbench.isDone(WizardStep::Finish));
+  QVERIFY2(!panel.page(WizardStep::Capture)->findChild<QCheckBox*>(QStringLiteral("handsFreeBox"))->isChecked(),
+    "a session with samples takes no others by itself");
+  // Another calibration is not the one that was exported.
+  const int first = workbench.capture().samples().firstKey();
+  workbench.capture().setExcluded({ first }, true);
+  QTRY_VERIFY_WITH_TIMEOUT(!workbench.isDone(WizardStep::Finish), PatienceMs);
+}
+
+void WizardSessionTest::lastSession_IsOfferedUntilThisOneIsUsed()
+{
+  const QTemporaryDir parent;
+  const QString folder = parent.filePath(QStringLiteral("left"));
+  {
+    HandEyeCalibrationPanel panel(nullptr, nullptr);
+    panel.workbench().openSession(folder);
+    loadInputs(panel);
+    importCapture(panel);
+    bool isStored = false;
+    panel.workbench().afterStoring([&isStored] { isStored = true; });
+    QTRY_VERIFY_WITH_TIMEOUT(isStored, PatienceMs);
+  }
+  const handeye::SessionSummary summary = handeye::summarizeSession(folder);
+  QVERIFY(summary.isCalibrated && summary.hasStylus && !summary.isValidated && summary.sampleCount > 10);
+  {
+    // One that is looked at and left is not the last one.
+    HandEyeCalibrationPanel panel(nullptr, nullptr);
+    QVERIFY(!panel.workbench().isSessionUsed());
+  }
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  testing_widgets::show(panel, QSize(1280, 800));
+  WizardDriver driver(panel);
+  auto* const button = driver.onPage("lastSessionButton");
+  QVERIFY(button->isVisible());
+  QVERIFY2(driver.visibleText("lastSessionLabel").contains(QStringLiteral("calibrated")),
+    qPrintable(driver.visibleText("lastSessionLabel")));
+  driver.click(button);
+  QTRY_COMPARE_WITH_TIMEOUT(panel.currentStep(), WizardStep::Capture, PatienceMs);
+  QCOMPARE(QDir(panel.workbench().sessionFolder()), QDir(folder));
+  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().calibration() && panel.workbench().calibration()->isUsable(), PatienceMs);
+  panel.goTo(WizardStep::Devices);
+  QVERIFY(!button->isVisible());
+}
+
+void WizardSessionTest::devices_OfTheSessionStandThereAgain()
+{
+  const QTemporaryDir parent;
+  const QString folder = parent.filePath(QStringLiteral("session"));
+  {
+    HandEyeCalibrationPanel panel(nullptr, nullptr);
+    panel.workbench().openSession(folder);
+    handeye::DeviceSetup setup;
+    setup.kind = handeye::DeviceSetup::Kind::Recording;
+    setup.recording = demo("calibration");
+    QVERIFY(panel.workbench().connectDevices(setup));
+    bool isStored = false;
+    panel.workbench().afterStoring([&isStored] { isStored = true; });
+    QTRY_VERIFY_WITH_TIMEOUT(isStored, PatienceMs);
+  }
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  testing_widgets::show(panel, QSize(1280, 800));
+  QSignalSpy opened(&panel.workbench(), &HandEyeWorkbench::sessionOpened);
+  QVERIFY(panel.openFile(folder));
+  WizardDriver driver(panel);
+  QTRY_VERIFY_WITH_TIMEOUT(driver.onPage<QAbstractButton>("recordingButton")->isChecked(), PatienceMs);
+  driver.click(driver.onPage("connectButton"));
+  QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().devices().isConnected(), PatienceMs);
+  QCOMPARE(panel.workbench().devices().setup().recording, demo("calibration"));
+}
+
+HANDEYE_WIDGET_TEST_MAIN(WizardSessionTest)
+
+#include "WizardSessionTest.moc"
