@@ -3,11 +3,12 @@
 #include "ComparisonTask.h"
 
 #include "ComparisonReport.h"
-#include "WindowPlots.h"
+#include "PaintedPlot.h"
 #include "WorkThread.h"
 
 #include <QElapsedTimer>
 
+#include <stdexcept>
 #include <utility>
 
 namespace handeye
@@ -149,10 +150,10 @@ void ComparisonTask::writeReport(const QString& folder)
   }
   begin();
   emit progressed(tr("writing the report"), 0, 0);
-  const report::PlotDrawer draw =
-    drawInWindowThread(*this, [thread = work_.get(), isCancelled = isCancelled_] { return *isCancelled || thread->isEnding(); });
+  const report::PlotDrawer draw = [thread = work_.get(), isCancelled = isCancelled_](const report::Plot& plot)
+  { return *isCancelled || thread->isEnding() ? throw std::runtime_error("the report was cancelled") : paintPlot(plot); };
   work_->post(
-    [this, folder, comparison = result_, draw, isCancelled = isCancelled_]
+    [this, folder, draw, comparison = result_, isCancelled = isCancelled_]
     {
       QString message;
       try

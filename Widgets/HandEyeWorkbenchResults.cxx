@@ -3,9 +3,9 @@
 #include "HandEyeWorkbench.h"
 
 #include "JsonEigen.h"
+#include "PaintedPlot.h"
 #include "ResultFiles.h"
 #include "ValidationReport.h"
-#include "WindowPlots.h"
 #include "WorkThread.h"
 
 #include <utility>
@@ -186,11 +186,10 @@ void HandEyeWorkbench::writeReport(const QString& folder)
     return;
   }
   const std::filesystem::path recording = validationCapture_->folder().toStdString();
-  const report::PlotDrawer draw = drawInWindowThread(*this, [thread = work_.get()] { return thread->isEnding(); });
   beside(WizardStep::Finish,
-    [this, folder, recording, draw, validation = *validation_]
+    [this, folder, recording, validation = *validation_]
     {
-      writeValidationReport(folder.toStdString(), validation, io::Recording::open(recording), draw);
+      writeValidationReport(folder.toStdString(), validation, io::Recording::open(recording), paintPlot);
       tell([this, folder] { emit reportWritten(folder + QStringLiteral("/report.html")); });
     });
 }

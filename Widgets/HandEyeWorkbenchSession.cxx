@@ -40,7 +40,7 @@ QString text(const json& object, const char* key, const QString& otherwise)
 constexpr std::array<const char*, WizardStepCount> StepWords = { "devices", "camera", "stylus", "ball", "capture", "validation",
   "comparison", "overlay", "finish" };
 
-std::optional<WizardStep> stepOf(const QString& word)
+std::optional<WizardStep> stepOf(const std::string& word)
 {
   const auto found = std::find(StepWords.begin(), StepWords.end(), word);
   return found == StepWords.end() ? std::nullopt : std::optional(WizardStep(found - StepWords.begin()));
@@ -244,7 +244,7 @@ void HandEyeWorkbench::takeDocuments(const std::map<std::string, json>& document
     }
   }
   storedLandmarks_ = entry(documents, "landmarks");
-  storedStep_ = stepOf(text(entry(documents, "wizard"), "step", {}));
+  storedStep_ = stepOf(text(entry(documents, "wizard"), "step", {}).toStdString());
   restoreFiles(documents);
   if (capture_->storedSampleCount() > 0 || entry(documents, "stylus").is_object() || entry(documents, "calibration").is_object() ||
     entry(documents, "phantom").is_object())

@@ -4,6 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 #include <vtkAxis.h>
+#include <vtkBrush.h>
 #include <vtkChartLegend.h>
 #include <vtkChartXY.h>
 #include <vtkContextActor.h>
@@ -108,6 +109,7 @@ void addSeries(vtkChartXY* chart, const PlotSeries& series, vtkTable* table)
   points->SetInputData(table, 0, 1);
   points->SetLabel(series.label);
   points->SetColor(series.color[0], series.color[1], series.color[2], 255);
+  points->GetBrush()->SetColor(series.color[0], series.color[1], series.color[2], 255);
   points->SetWidth(isLine ? 2.5F : 1.5F);
   points->GetPen()->SetLineType(isLine && series.isDashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
   points->SetMarkerStyle(markers[series.marker % 4]);
@@ -151,7 +153,8 @@ void setWholeTicks(vtkAxis* axis, double lowest, double highest)
   axis->SetCustomTickPositions(positions, labels);
 }
 
-int widthOf(const std::string& text, vtkTextProperty* look)
+/// By VTK's own fonts, which are one for the program and not guarded.
+int widthByVtk(const std::string& text, vtkTextProperty* look)
 {
   constexpr int Dpi = 72;  // a window's, in which a chart's sizes are pixels
   int box[4] = { 0, -1, 0, -1 };
@@ -164,7 +167,7 @@ int widthOf(const std::string& text, vtkTextProperty* look)
 }
 
 /// A text in as many lines as it needs; a chart cuts off what does not fit.
-std::string wrapped(const std::string& text, vtkTextProperty* look, int room)
+std::string wrapped(const std::string& text, vtkTextProperty* look, int room, const TextWidth& widthOf)
 {
   std::istringstream words(text);
   std::string lines, line, word;
@@ -184,7 +187,7 @@ std::string wrapped(const std::string& text, vtkTextProperty* look, int room)
   return lines + line;
 }
 
-void setUpAxis(vtkAxis* axis, const std::string& title, double lowest, double highest, int room)
+void setUpAxis(vtkAxis* axis, const std::string& title, double lowest, double highest, int room, const TextWidth& widthOf)
 {
   axis->SetBehavior(vtkAxis::FIXED);
   axis->SetRange(lowest, highest);
@@ -192,16 +195,16 @@ void setUpAxis(vtkAxis* axis, const std::string& title, double lowest, double hi
   axis->SetMaximumLimit(highest);
   axis->GetTitleProperties()->SetFontSize(24);
   axis->GetTitleProperties()->BoldOff();
-  axis->SetTitle(wrapped(title, axis->GetTitleProperties(), room));
+  axis->SetTitle(wrapped(title, axis->GetTitleProperties(), room, widthOf));
   axis->GetLabelProperties()->SetFontSize(21);
   axis->GetGridPen()->SetColor(225, 225, 225, 255);
 }
 
-void setUpAxes(vtkChartXY* chart, const Plot& plot, const Range& rangeX, const Range& rangeY)
+void setUpAxes(vtkChartXY* chart, const Plot& plot, const Range& rangeX, const Range& rangeY, const TextWidth& widthOf)
 {
   const double marginX = std::max(0.03 * (rangeX.highest - rangeX.lowest), 1e-3 * std::max(1.0, std::abs(rangeX.highest)));
   const int roomX = plot.width - BesidePlotPx, roomY = plot.height - BesidePlotPx;
-  setUpAxis(chart->GetAxis(vtkAxis::BOTTOM), plot.xLabel, rangeX.lowest - marginX, rangeX.highest + marginX, roomX);
+  setUpAxis(chart->GetAxis(vtkAxis::BOTTOM), plot.xLabel, rangeX.lowest - marginX, rangeX.highest + marginX, roomX, widthOf);
   if (plot.hasWholeX)
   {
     setWholeTicks(chart->GetAxis(vtkAxis::BOTTOM), rangeX.lowest, rangeX.highest);
@@ -210,18 +213,18 @@ void setUpAxes(vtkChartXY* chart, const Plot& plot, const Range& rangeX, const R
   if (plot.isLogarithmic)
   {
     const double lowest = rangeY.lowest - 0.1, highest = std::max(rangeY.highest + 0.1, rangeY.lowest + 0.5);
-    setUpAxis(left, plot.yLabel, lowest, highest, roomY);
+    setUpAxis(left, plot.yLabel, lowest, highest, roomY, widthOf);
     setLogarithmicTicks(left, lowest, highest);
     return;
   }
   const double lowest = std::min(0.0, rangeY.lowest * 1.05);
-  setUpAxis(left, plot.yLabel, lowest, rangeY.highest > lowest ? rangeY.highest * 1.08 : lowest + 1, roomY);
+  setUpAxis(left, plot.yLabel, lowest, rangeY.highest > lowest ? rangeY.highest * 1.08 : lowest + 1, roomY, widthOf);
 }
 
-void setUpChart(vtkChartXY* chart, const Plot& plot)
+void setUpChart(vtkChartXY* chart, const Plot& plot, const TextWidth& widthOf)
 {
   chart->GetTitleProperties()->SetFontSize(26);
-  chart->SetTitle(wrapped(plot.title, chart->GetTitleProperties(), plot.width - BesidePlotPx));
+  chart->SetTitle(wrapped(plot.title, chart->GetTitleProperties(), plot.width - BesidePlotPx, widthOf));
   chart->SetShowLegend(plot.hasLegend && plot.series.size() > 1);
   vtkChartLegend* legend = chart->GetLegend();
   legend->SetInline(false);
@@ -265,17 +268,23 @@ Color seriesColor(std::size_t index)
   return colors[index % (sizeof(colors) / sizeof(colors[0]))];
 }
 
-cv::Mat drawPlot(const Plot& plot)
+vtkSmartPointer<vtkChartXY> plotChart(const Plot& plot, const TextWidth& widthOf)
 {
   check(plot);
-  vtkNew<vtkChartXY> chart;
-  setUpChart(chart, plot);
+  auto chart = vtkSmartPointer<vtkChartXY>::New();
+  setUpChart(chart, plot, widthOf);
   Range rangeX, rangeY;
   for (const PlotSeries& series : plot.series)
   {
     addSeries(chart, series, tableOf(series, plot.isLogarithmic, rangeX, rangeY));
   }
-  setUpAxes(chart, plot, rangeX, rangeY);
+  setUpAxes(chart, plot, rangeX, rangeY, widthOf);
+  return chart;
+}
+
+cv::Mat drawPlot(const Plot& plot)
+{
+  const vtkSmartPointer<vtkChartXY> chart = plotChart(plot, widthByVtk);
   vtkNew<vtkContextActor> actor;
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkRenderWindow> window;

@@ -3,11 +3,15 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <vtkSmartPointer.h>
 
 #include <array>
 #include <functional>
 #include <string>
 #include <vector>
+
+class vtkChartXY;
+class vtkTextProperty;
 
 namespace handeye::report
 {
@@ -43,6 +47,13 @@ struct Plot
   int width = 1400, height = 720;
 };
 
+/// How wide a line of text becomes in this look, px, without its orientation.
+using TextWidth = std::function<int(const std::string& line, vtkTextProperty* look)>;
+
+/// A plot as a chart, to be painted in plot.width x plot.height px by whoever says how wide texts become there.
+/// @throws std::invalid_argument as drawPlot()
+[[nodiscard]] vtkSmartPointer<vtkChartXY> plotChart(const Plot& plot, const TextWidth& widthOf);
+
 /// Draws a plot with vtkChartXY, off screen, legend at the right.
 ///
 /// Renders with OpenGL as every VTK window does: a program without a display calls registerOffscreenRendering() first; with one,
@@ -53,7 +64,7 @@ struct Plot
 ///         std::runtime_error where nothing can be rendered
 [[nodiscard]] cv::Mat drawPlot(const Plot& plot);
 
-/// Who draws a report's plots: drawPlot(), or somebody who has it done in another thread.
+/// Who draws a report's plots: drawPlot(), or a painter of one's own.
 using PlotDrawer = std::function<cv::Mat(const Plot&)>;
 
 }  // namespace handeye::report
