@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PaintedPlot.h"
 
+#include "PlotChart.h"
 #include "vtkHandEyePainterDevice.h"
 
 #include <QFont>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ReportPlot.h"
+#include "PlotChart.h"
 
 #include <opencv2/imgproc.hpp>
 #include <vtkAxis.h>

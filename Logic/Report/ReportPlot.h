@@ -3,15 +3,11 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-#include <vtkSmartPointer.h>
 
 #include <array>
 #include <functional>
 #include <string>
 #include <vector>
-
-class vtkChartXY;
-class vtkTextProperty;
 
 namespace handeye::report
 {
@@ -47,13 +43,6 @@ struct Plot
   int width = 1400, height = 720;
 };
 
-/// How wide a line of text becomes in this look, px, without its orientation.
-using TextWidth = std::function<int(const std::string& line, vtkTextProperty* look)>;
-
-/// A plot as a chart, to be painted in plot.width x plot.height px by whoever says how wide texts become there.
-/// @throws std::invalid_argument as drawPlot()
-[[nodiscard]] vtkSmartPointer<vtkChartXY> plotChart(const Plot& plot, const TextWidth& widthOf);
-
 /// Draws a plot with vtkChartXY, off screen, legend at the right.
 ///
 /// Renders with OpenGL as every VTK window does: a program without a display calls registerOffscreenRendering() first; with one,
@@ -64,7 +53,7 @@ using TextWidth = std::function<int(const std::string& line, vtkTextProperty* lo
 ///         std::runtime_error where nothing can be rendered
 [[nodiscard]] cv::Mat drawPlot(const Plot& plot);
 
-/// Who draws a report's plots: drawPlot(), or a painter of one's own.
+/// Who draws a report's plots: drawPlot(), or a painter of one's own; see PlotChart.h.
 using PlotDrawer = std::function<cv::Mat(const Plot&)>;
 
 }  // namespace handeye::report
