@@ -183,10 +183,7 @@ void DevicesPage::refresh()
   }
   const QString folder = workbench_.sessionFolder();
   ui_->sessionLabel->setText(folder.isEmpty() ? tr("No session is open.") : folder);
-  for (QWidget* widget : std::initializer_list<QWidget*>{ ui_->lastSessionLabel, ui_->lastSessionButton })
-  {
-    widget->setVisible(lastSession_.has_value());
-  }
+  ui_->lastSessionBox->setVisible(lastSession_.has_value());
   if (lastSession_)
   {
     ui_->lastSessionLabel->setText(

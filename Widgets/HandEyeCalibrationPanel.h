@@ -43,6 +43,9 @@ public:
   /// @return whether it could be made something of; what is wrong with it is shown on the page
   Q_INVOKABLE bool openFile(const QString& path);
 
+  /// The pages scroll within the panel: whoever holds it need not scroll it, too, for a text that takes more lines.
+  bool hasHeightForWidth() const override { return false; }
+
 public slots:
   void goTo(handeye::WizardStep step);
   void goNext();

@@ -14,6 +14,8 @@
 #include "LensStereo.h"
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace handeye::cli
 {
@@ -23,6 +25,7 @@ namespace
 
 struct LensArguments
 {
+  std::vector<const CLI::Option*> liveOptions;  ///< that mean something with a live video only
   std::string recording, right, board, rightFile, leftToRightFile, coverageFile;
   LensCalibrationOptions lens;
   LensViewCollectorOptions collector;
@@ -214,10 +217,12 @@ int runLens(LensArguments& arguments)
       isLive ? "takes a RECORDING or a live video (--server, --video, --replay), not both"
              : "needs the pictures of the board: a RECORDING, or a live video (--server, --video, --replay)");
   }
-  if (!isLive && (arguments.live.seconds > 0 || !arguments.live.storeFolder.empty()))
+  for (const CLI::Option* const option : arguments.liveOptions)
   {
-    throw CLI::ValidationError(
-      arguments.live.seconds > 0 ? "--seconds" : "--store-pictures", "goes with a live video only (--server, --video, --replay)");
+    if (!isLive && option->count() > 0)
+    {
+      throw CLI::ValidationError(option->get_name(), "goes with a live video only (--server, --video, --replay)");
+    }
   }
   if (isLive && (!arguments.right.empty() || arguments.all))
   {
@@ -251,6 +256,10 @@ void addCameraCalibrateCommand(CLI::App& app, int& exitCode)
     ->add_option("--store-pictures", arguments->live.storeFolder,
       "Of a live video: store the pictures of the views in this folder, to be used again as a RECORDING")
     ->type_name("DIR");
+  for (const char* const name : { "--seconds", "--store-pictures", "--speed", "--image", "--wait" })
+  {
+    arguments->liveOptions.push_back(command->get_option(name));
+  }
   addBoardOption(*command, arguments->board);
   command->add_option("--model", arguments->lens.coefficients, "Distortion coefficients: k1 k2 p1 p2, and k3, and k4 k5 k6")
     ->check(CLI::IsMember({ 4, 5, 8 }))

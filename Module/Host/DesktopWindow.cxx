@@ -224,7 +224,9 @@ void DesktopWindow::restoreGeometryOfLastTime()
   if (geometry.isEmpty() || !this->restoreGeometry(geometry))
   {
     const QRect screen = this->screen()->availableGeometry();
-    this->resize(screen.size() * 0.85);
+    // On a small screen, all of it: the wizard, the video and the scene are beside one another.
+    constexpr QSize comfortable(1440, 900);
+    this->resize((screen.size() * 0.85).expandedTo(comfortable).boundedTo(screen.size()));
     this->move(screen.center() - this->rect().center());
   }
   this->restoreState(stored.value(QStringLiteral("Desktop/state")).toByteArray());

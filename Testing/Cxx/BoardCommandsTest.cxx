@@ -230,6 +230,7 @@ TEST_F(BoardCommands, CameraCalibrate_FromLiveVideo_TakesViewsAndStoresTheirPict
          { "camera", "calibrate", "--replay", file("board"), "--all", "--board", Board },
          { "camera", "calibrate", file("board"), "--store-pictures", file("other"), "--board", Board },
          { "camera", "calibrate", file("board"), "--seconds", "3", "--board", Board },
+         { "camera", "calibrate", file("board"), "--speed", "0", "--board", Board },
          { "camera", "calibrate", "--replay", file("board"), "--store-pictures", file("camera.yml"), "--board", Board },
          { "camera", "calibrate", "--video", file("nothing.mp4"), "--board", Board } })
   {
