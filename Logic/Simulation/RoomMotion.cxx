@@ -32,6 +32,12 @@ double smoothStep(double share)
   return s * s * s * (s * (6 * s - 15) + 10);
 }
 
+/// A hand is never quite still.
+Eigen::Vector3d tremor(double timeSec)
+{
+  return { 0.05 * wave(timeSec, 0.31, 0), 0.05 * wave(timeSec, 0.27, 1), 0.05 * wave(timeSec, 0.37, 2) };
+}
+
 /// Places in view whose balls are whole in the picture: well spread over the image and the depth.
 std::vector<Eigen::Vector3d> makePlaces(const RoomOptions& options)
 {
@@ -107,7 +113,7 @@ Eigen::Isometry3d RoomScript::markerToTracker(double timeSec) const
 Eigen::Vector3d RoomScript::ball_Tracker(const Moment& moment) const
 {
   const double middleMm = (options_.nearestMm + options_.furthestMm) / 2;
-  if (moment.motion == RoomMotion::Pivot)
+  if (moment.motion == RoomMotion::Pivot || moment.motion == RoomMotion::Spin)
   {
     return cameraToTracker_ * Eigen::Vector3d(10, 15, middleMm);
   }
@@ -118,24 +124,41 @@ Eigen::Vector3d RoomScript::ball_Tracker(const Moment& moment) const
       Eigen::Vector3d(reach * wave(t, 2.3, 0), 0.7 * reach * wave(t, 1.7, 0.5),
         middleMm + 0.3 * (options_.furthestMm - options_.nearestMm) * wave(t, 3.1, 1));
   }
+  if (moment.motion == RoomMotion::Rest)
+  {
+    const double restMm = options_.nearestMm + 0.3 * (options_.furthestMm - options_.nearestMm);
+    return cameraToTracker_ * Eigen::Vector3d(0.03 * restMm, -0.05 * restMm, restMm) + tremor(moment.timeSec);
+  }
+  return this->placedBall_Tracker(moment.timeSec);
+}
+
+/// At one place after another.
+Eigen::Vector3d RoomScript::placedBall_Tracker(double timeSec) const
+{
   const double periodSec = options_.holdSec + options_.moveSec;
-  const auto place = std::size_t(moment.timeSec / periodSec);
-  const double inPeriod = moment.timeSec - double(place) * periodSec;
+  const auto place = std::size_t(timeSec / periodSec);
+  const double inPeriod = timeSec - double(place) * periodSec;
   const double share = smoothStep((inPeriod - options_.holdSec) / options_.moveSec);
   const Eigen::Vector3d& from = places_Tracker_[place % places_Tracker_.size()];
   const Eigen::Vector3d& to = places_Tracker_[(place + 1) % places_Tracker_.size()];
-  // A hand is never quite still.
-  const Eigen::Vector3d tremor(
-    0.05 * wave(moment.timeSec, 0.31, 0), 0.05 * wave(moment.timeSec, 0.27, 1), 0.05 * wave(moment.timeSec, 0.37, 2));
-  return (1 - share) * from + share * to + tremor;
+  return (1 - share) * from + share * to + tremor(timeSec);
 }
 
-/// The shaft comes from below and behind the ball, seen from the camera, and sways.
+/// The shaft comes from below and behind the ball, seen from the camera, and sways; or the stylus is spun about it.
 Eigen::Matrix3d RoomScript::stylusRotation(const Moment& moment) const
 {
   const Eigen::Vector3d shaft_Stylus = -options_.tip_Stylus.normalized();  // from the ball to the handle
   const Eigen::Vector3d shaft_Camera = Eigen::Vector3d(0.35, 0.75, 0.55).normalized();
   const Eigen::Matrix3d stylusToCamera = Eigen::Quaterniond::FromTwoVectors(shaft_Stylus, shaft_Camera).toRotationMatrix();
+  if (moment.motion == RoomMotion::Spin)
+  {
+    // Fingers turn it to and fro, and lean it a little while they do.
+    const Eigen::Vector3d lean(0.012 * wave(moment.timeSec, 1.9, 0), 0.012 * wave(moment.timeSec, 2.3, 1), 0);
+    const Eigen::Matrix3d leantToCamera = rotationFromVector(lean) * stylusToCamera;
+    const Eigen::Vector3d spin_Stylus = 1.2 * wave(moment.timeSec, 3.1, 0) * shaft_Stylus;
+    const Eigen::Matrix3d spunToCamera = leantToCamera * rotationFromVector(spin_Stylus);
+    return cameraToTracker_.linear() * spunToCamera;
+  }
   const bool isPivot = moment.motion == RoomMotion::Pivot;
   const double swing = isPivot ? 0.6 : 0.15, t = moment.timeSec;
   const Eigen::Vector3d turn(swing * wave(t, 2.9, 0), swing * wave(t, 2.1, 1), (isPivot ? 0.8 : 0.2) * wave(t, 4.3, 2));
@@ -156,6 +179,10 @@ Eigen::Isometry3d RoomScript::stylusToTracker(double timeSec) const
 bool RoomScript::isHeldStill(double timeSec) const
 {
   const Moment moment = momentOf(timeSec);
+  if (moment.motion == RoomMotion::Rest)
+  {
+    return true;
+  }
   const double inPeriod = std::fmod(moment.timeSec, options_.holdSec + options_.moveSec);
   const bool isHolding = moment.motion == RoomMotion::Placements || moment.motion == RoomMotion::Landmarks;
   return isHolding && inPeriod > 0.25 * options_.holdSec && inPeriod < options_.holdSec;

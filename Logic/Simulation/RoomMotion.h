@@ -26,6 +26,7 @@ private:
   };
   Moment momentOf(double timeSec) const;
   Eigen::Vector3d ball_Tracker(const Moment& moment) const;
+  Eigen::Vector3d placedBall_Tracker(double timeSec) const;
   Eigen::Matrix3d stylusRotation(const Moment& moment) const;
 
   RoomOptions options_;

@@ -100,9 +100,17 @@ void drawClutter(cv::Mat& light, const RoomOptions& options, const RoomView& vie
   drawPolygon(light, options.camera, circle(restToCamera * place(-0.3 * depthMm, 0.22 * depthMm), 0.035 * depthMm), RingRed, 4);
 }
 
-/// A vertebra's rough shape: its body and three processes.
-void drawPhantom(SphereScene& scene, const RoomView& view)
+/// The mesh, or a vertebra's rough shape: its body and three processes.
+void drawPhantom(SphereScene& scene, const RoomOptions& options, const RoomView& view)
 {
+  if (options.phantomMesh)
+  {
+    RoomMeshLook look;
+    look.color = Bone;
+    look.dots_Model = options.landmarks_Model;
+    drawMesh(scene.light(), options.camera, *options.phantomMesh, view.phantomToCamera * options.modelToPhantom, look);
+    return;
+  }
   const std::pair<Eigen::Vector3d, double> parts[] = { { { 0, 0, 0 }, 19 }, { { 26, 22, 4 }, 9 }, { { -26, 22, 4 }, 9 },
     { { 0, 34, -4 }, 10 } };
   for (const auto& [center_Phantom, radiusMm] : parts)
@@ -136,7 +144,7 @@ cv::Mat drawRoom(const RoomOptions& options, const RayTable& rays, const RoomVie
   if (options.hasClutter)
   {
     drawClutter(scene.light(), options, view);
-    drawPhantom(scene, view);
+    drawPhantom(scene, options, view);
     drawShaft(scene.light(), options, view);
   }
   RenderedBall ball;

@@ -56,7 +56,8 @@ RoomOptions::RoomOptions()
   : camera(defaultCamera())
   , markerToCamera(rigid({ 1.9, -1.1, 0.7 }, { 18, -61, 34 }))
   , tip_Stylus(-1.9, 0.4, 186.4)
-  , modelToPhantom(rigid({ -0.4, 2.2, 0.3 }, { -7, 25, 12 }))
+  // A vertebra that is x right, y anterior, z superior shows its back, seen a little from above.
+  , modelToPhantom(rigid({ 1.75, -0.32, -1.19 }, { 9, -11, 21 }))
 {
 }
 
@@ -141,10 +142,14 @@ std::string toString(RoomMotion motion)
   {
     case RoomMotion::Pivot:
       return "pivot";
+    case RoomMotion::Spin:
+      return "spin";
     case RoomMotion::Placements:
       return "placements";
     case RoomMotion::Free:
       return "free";
+    case RoomMotion::Rest:
+      return "rest";
     case RoomMotion::Landmarks:
       return "landmarks";
     case RoomMotion::Tour:

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "CameraModel.h"
+#include "RoomMesh.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -19,8 +20,10 @@ namespace handeye::simulation
 enum class RoomMotion
 {
   Pivot,       ///< the stylus turns about its tip, which rests in a divot
+  Spin,        ///< the stylus is spun about its shaft, to and fro, its tip in the divot
   Placements,  ///< the ball is held still at places all over the view, moving quickly in between
   Free,        ///< the ball moves smoothly through the view: for temporal calibration and for the overlay
+  Rest,        ///< the ball is held still, whole and near in the view: to be looked at and clicked on
   Landmarks,   ///< the tip is held on one landmark of the phantom after another
   Tour         ///< 12 s of Pivot, 40 s of Placements, 20 s of Free, and again
 };
@@ -33,6 +36,8 @@ struct RoomOptions
   Eigen::Isometry3d modelToPhantom;  ///< p_Phantom = modelToPhantom * p_Model, mm
   /// Of Landmarks, mm: p_Phantom = modelToPhantom * landmark_Model.
   std::vector<Eigen::Vector3d> landmarks_Model;
+  /// What the phantom looks like, with dots at its landmarks: p_Phantom = modelToPhantom * p_Model. Null: a few balls of bone.
+  std::shared_ptr<const RoomMesh> phantomMesh;
   double ballRadiusMm = 15;
   RoomMotion motion = RoomMotion::Tour;
   int placeCount = 15;                       ///< of Placements
@@ -106,7 +111,7 @@ private:
   std::unique_ptr<const Parts> parts_;
 };
 
-/// "pivot", "placements", "free", "landmarks", "tour"
+/// "pivot", "spin", "placements", "free", "rest", "landmarks", "tour"
 std::string toString(RoomMotion motion);
 
 }  // namespace handeye::simulation

@@ -133,8 +133,9 @@ void serve(const SimulateArguments& arguments, const SimulatedRoom& room)
 
 int runSimulate(SimulateArguments& arguments)
 {
-  static const std::map<std::string, RoomMotion> motions = { { "pivot", RoomMotion::Pivot },
-    { "placements", RoomMotion::Placements }, { "free", RoomMotion::Free }, { "tour", RoomMotion::Tour } };
+  static const std::map<std::string, RoomMotion> motions = { { "pivot", RoomMotion::Pivot }, { "spin", RoomMotion::Spin },
+    { "placements", RoomMotion::Placements }, { "free", RoomMotion::Free }, { "rest", RoomMotion::Rest },
+    { "tour", RoomMotion::Tour } };
   simulation::RoomOptions& room = arguments.room;
   room.motion = motions.at(arguments.motion);
   room.videoDelaySec = arguments.delayMs / 1000;
@@ -207,9 +208,9 @@ void addSimulateCommand(CLI::App& app, int& exitCode)
     ->capture_default_str()
     ->type_name("ADDRESS");
   command->add_option("--motion", arguments->motion, "What happens")
-    ->check(CLI::IsMember({ "pivot", "placements", "free", "tour" }))
+    ->check(CLI::IsMember({ "pivot", "spin", "placements", "free", "rest", "tour" }))
     ->capture_default_str()
-    ->type_name("pivot|placements|free|tour");
+    ->type_name("pivot|spin|placements|free|rest|tour");
   command->add_option("--seconds", arguments->seconds, "How long; a server runs until Ctrl+C otherwise, a file has 72")
     ->type_name("SEC");
   const CLI::Range rate(0.1, 1000.0);
