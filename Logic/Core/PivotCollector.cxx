@@ -45,6 +45,11 @@ double DomeCoverage::share() const
   return double(std::count_if(poses.begin(), poses.end(), [](int count) { return count > 0; })) / Cells;
 }
 
+int DomeCoverage::covered() const
+{
+  return int(std::count_if(poses.begin(), poses.end(), [](int count) { return count >= PosesEach; }));
+}
+
 PivotCollector::PivotCollector(const PivotCollectorOptions& options)
   : options_(options)
   , crowd_(OrientationCells, 0)
@@ -181,6 +186,18 @@ void PivotCollector::dropRejected()
 PivotCalibrationResult PivotCollector::calibrate() const
 {
   return calibratePivot(poses_, options_.calibration);
+}
+
+PivotCollector::Counts PivotCollector::countsWith(const PivotCalibrationResult& result) const
+{
+  Counts counts = counts_;
+  for (const PivotRejection& rejection : result.rejections)
+  {
+    const bool isRepeated = rejection.reason == PivotRejection::Reason::Repeated;
+    ++(isRepeated ? counts.repeated : counts.disagreeing);
+    --counts.kept;
+  }
+  return counts;
 }
 
 double PivotCollector::predictedTipErrorMm() const

@@ -30,12 +30,18 @@ struct DomeCoverage
 {
   static constexpr int Sectors = 8;
   static constexpr int Cells = 1 + 2 * Sectors;
+  static constexpr int PosesEach = 3;     ///< from so many on a cell is covered
+  static constexpr int EnoughCells = 12;  ///< with so many covered, poses that are all wrong in one way would not have agreed
 
   /// Kept poses in each: the middle, the inner ring and the outer ring, each counter-clockwise about the mean shaft.
   std::array<int, Cells> poses{};
 
   /// Share of the cells that have a pose.
   double share() const;
+
+  /// Cells that are covered, and whether they are enough.
+  int covered() const;
+  bool isEnough() const { return covered() >= EnoughCells; }
 };
 
 /// Pivot calibration while the stylus is being pivoted: poses arrive one by one, and at any time there is an estimate, how good
@@ -83,6 +89,9 @@ public:
 
   /// From all poses that are kept now.
   PivotCalibrationResult calibrate() const;
+
+  /// The counts as they are once such a result has left poses out: `kept` are those that it used.
+  Counts countsWith(const PivotCalibrationResult& result) const;
 
   /// Root mean square distance (mm) that the tip of the estimate is expected to be off; infinite without a usable one.
   double predictedTipErrorMm() const;

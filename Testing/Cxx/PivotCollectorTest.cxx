@@ -213,12 +213,52 @@ TEST(PivotCollector, Coverage_ShowsWhatIsMissing)
   EXPECT_GT(half.coverage().share(), 0.2);
   EXPECT_LT(half.coverage().share(), 0.7);
   EXPECT_EQ(whole.coverage().share(), 1);
+  EXPECT_TRUE(whole.coverage().isEnough());
+  EXPECT_FALSE(half.coverage().isEnough());
   int counted = 0;
   for (int poses : whole.coverage().poses)
   {
     counted += poses;
   }
   EXPECT_EQ(counted, int(whole.poses().size()));
+}
+
+TEST(PivotCollector, CellsWithFewPoses_AreNotCovered)
+{
+  DomeCoverage coverage;
+  coverage.poses.fill(DomeCoverage::PosesEach - 1);
+  EXPECT_EQ(coverage.covered(), 0);
+  for (int cell = 0; cell < DomeCoverage::EnoughCells; ++cell)
+  {
+    EXPECT_FALSE(coverage.isEnough());
+    ++coverage.poses[std::size_t(cell)];
+  }
+  EXPECT_TRUE(coverage.isEnough());
+}
+
+TEST(PivotCollector, CountsWithAResult_AddUpToAllThatCame)
+{
+  Random random(8);
+  PivotSimulation stylus;
+  PivotCollector collector;
+  for (int i = 0; i < 300; ++i)
+  {
+    Eigen::Isometry3d stylusToTracker = stylus.pose(circling(i, 35 * Degree), random);
+    stylusToTracker.translation().x() += i % 50 == 7 ? 8 : 0;  // slipped
+    collector.add(stylusToTracker);
+    if (i % 30 == 0)
+    {
+      collector.addInvalid();
+      collector.add(stylusToTracker);
+    }
+  }
+  const PivotCalibrationResult result = collector.calibrate();
+  ASSERT_TRUE(result.isUsable()) << result.message;
+  const PivotCollector::Counts counts = collector.countsWith(result);
+  EXPECT_EQ(counts.kept, (long long)result.used.size());
+  EXPECT_EQ(counts.total(), 320);
+  EXPECT_EQ(counts.invalid, 10);
+  EXPECT_GE(counts.disagreeing, 6);
 }
 
 TEST(PivotCollector, TimeInOnePlace_DoesNotPushTheOthersOut)
