@@ -29,6 +29,8 @@ constexpr double LeastShare = 0.1;
 constexpr double ConnectedHueDeg = 22;
 /// Largest share of the image that a ball can cover.
 constexpr double LargestShare = 0.6;
+/// A click so far beside the outline (radii, px) is still one on the ball.
+constexpr double BesideShare = 1.15, BesidePx = 2;
 constexpr double SharpestHueDeg = 9;
 constexpr double WidestHueDeg = 24;
 
@@ -166,6 +168,29 @@ BallColorLearningResult learnBallColor(const cv::Mat& image, const cv::Point& pi
   result.status = BallColorLearningResult::Status::Ok;
   result.message = "learnt a hue of " + fixedDigits(result.color.hueDeg, 0) + " deg, give or take " +
     fixedDigits(result.color.hueToleranceDeg, 0) + " deg, from " + std::to_string(result.pixels) + " pixels";
+  return result;
+}
+
+BallColorLearningResult learnBallColor(
+  const cv::Mat& image, const cv::Point& pixel, const CameraModel& camera, double ballRadiusMm, const BallDetectionOptions& options)
+{
+  BallColorLearningResult result = learnBallColor(image, pixel, options.color.channelOrder);
+  if (!result.isUsable())
+  {
+    return result;
+  }
+  BallDetectionOptions detection = options;
+  detection.color = result.color;
+  const BallDetection ball = detectBall(image, camera, ballRadiusMm, detection);
+  const double apartPx = (ball.ball_Image - Eigen::Vector2d(pixel.x, pixel.y)).norm();
+  if (!ball.isFound() || apartPx > BesideShare * ball.radiusPx + BesidePx)
+  {
+    result.status = BallColorLearningResult::Status::NotFoundThere;
+    const std::string color = "the colour there (hue " + fixedDigits(result.color.hueDeg, 0) + " deg)";
+    result.message = ball.isFound() ? "a ball with " + color + " is found elsewhere, " + fixedDigits(apartPx, 0) + " px away"
+      : ball.status == BallDetection::Status::NotFound ? "nothing with " + color + " looks like a ball"
+                                                       : "with " + color + " no ball is found, since " + ball.message;
+  }
   return result;
 }
 

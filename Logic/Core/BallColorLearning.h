@@ -3,6 +3,7 @@
 #pragma once
 
 #include "BallColor.h"
+#include "BallDetection.h"
 
 #include <opencv2/core.hpp>
 
@@ -16,8 +17,9 @@ struct BallColorLearningResult
   enum class Status
   {
     Ok,
-    NoColor,  ///< what lies around the place is grey, white or black
-    NoBall    ///< what has the colour covers too much of the image to be a ball
+    NoColor,       ///< what lies around the place is grey, white or black
+    NoBall,        ///< what has the colour covers too much of the image to be a ball
+    NotFoundThere  ///< with the colour no ball is found in the image, or one elsewhere
   };
 
   Status status = Status::NoColor;
@@ -38,5 +40,12 @@ struct BallColorLearningResult
 /// Thread-safe.
 [[nodiscard]] BallColorLearningResult learnBallColor(
   const cv::Mat& image, const cv::Point& pixel, BallColor::ChannelOrder order = BallColor::ChannelOrder::Bgr);
+
+/// The same, and the ball is looked for with the colour in the same image: a click that missed it teaches nothing.
+/// @param camera, ballRadiusMm as for detectBall(); so are the options, of which the colour is not used
+/// @throws std::invalid_argument as learnBallColor() and detectBall()
+/// Thread-safe.
+[[nodiscard]] BallColorLearningResult learnBallColor(const cv::Mat& image, const cv::Point& pixel, const CameraModel& camera,
+  double ballRadiusMm, const BallDetectionOptions& options = {});
 
 }  // namespace handeye

@@ -120,6 +120,34 @@ TEST(BallColorLearning, ColoredBackground_IsNoBall)
   EXPECT_NE(learnt.message.find("% of the image"), std::string::npos) << learnt.message;
 }
 
+TEST(BallColorLearning, ClickOnTheBall_IsTaken_OneBesideItIsNot)
+{
+  const CameraModel camera = webcam();
+  const RenderedBall ball = paint(camera, BallRed);
+  SphereScene scene = SphereScene(camera).add(ball);
+  scene.cover(cv::Rect(540, 380, 70, 30));  // blue, and no ball
+  const cv::Mat image = scene.photograph({ 0.8, 1 });
+  const BallColorLearningResult onBall = learnBallColor(image, pixelAt(camera, ball, 5, 5), camera, ball.radiusMm);
+  ASSERT_TRUE(onBall.isUsable()) << onBall.message;
+  EXPECT_LT(std::abs(std::remainder(onBall.color.hueDeg, 360.0)), 5);
+
+  const BallColorLearningResult onBlue = learnBallColor(image, { 575, 395 }, camera, ball.radiusMm);
+  EXPECT_EQ(onBlue.status, Status::NotFoundThere);
+  EXPECT_NE(onBlue.message.find("looks like a ball"), std::string::npos) << onBlue.message;
+  EXPECT_EQ(learnBallColor(image, { 30, 30 }, camera, ball.radiusMm).status, Status::NoColor);
+}
+
+TEST(BallColorLearning, ClickOnARedThingBesideTheBall_SaysThatTheBallIsElsewhere)
+{
+  const CameraModel camera = webcam();
+  const RenderedBall ball = paint(camera, BallRed);
+  SphereScene scene = SphereScene(camera).add(ball);
+  scene.cover(cv::Rect(560, 400, 60, 8), BallRed);
+  const BallColorLearningResult learnt = learnBallColor(scene.photograph({ 0.8, 1 }), { 590, 404 }, camera, ball.radiusMm);
+  EXPECT_EQ(learnt.status, Status::NotFoundThere);
+  EXPECT_NE(learnt.message.find("elsewhere"), std::string::npos) << learnt.message;
+}
+
 TEST(BallColorLearning, BadInput_Throws)
 {
   const cv::Mat image(40, 60, CV_8UC3, cv::Scalar::all(90));
