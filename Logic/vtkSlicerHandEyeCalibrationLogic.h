@@ -164,6 +164,9 @@ public:
   /// mm. @return false, and `tip_Stylus` as it was, while there is none
   bool GetStylusTip(double tip_Stylus[3]);
   double GetStylusRmsMm();
+  /// The direction of the stylus' shaft from its tip (unit, Stylus), where it was spun. @return false, and `shaft_Stylus` as it was,
+  /// while it is not known
+  bool GetStylusShaft(double shaft_Stylus[3]);
 
   /// Null until there is one; a new object for each new result.
   vtkMatrix4x4* GetMarkerToCamera();

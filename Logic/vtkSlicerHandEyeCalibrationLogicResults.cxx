@@ -226,6 +226,25 @@ bool vtkSlicerHandEyeCalibrationLogic::GetStylusTip(double tip_Stylus[3])
   return true;
 }
 
+bool vtkSlicerHandEyeCalibrationLogic::GetStylusShaft(double shaft_Stylus[3])
+{
+  if (!this->HasStylusDocument())
+  {
+    return false;
+  }
+  const nlohmann::json& document = this->Internal->Stylus->document;
+  // The frame of the tip has -Z along the shaft.
+  const Eigen::Vector3d known = -Eigen::Vector3d(numberIn(document, "/stylusTipToStylus/0/2"),
+    numberIn(document, "/stylusTipToStylus/1/2"), numberIn(document, "/stylusTipToStylus/2/2"));
+  if (!known.allFinite())
+  {
+    return false;
+  }
+  Eigen::Map<Eigen::Vector3d> shaft(shaft_Stylus);
+  shaft = known;
+  return true;
+}
+
 double vtkSlicerHandEyeCalibrationLogic::GetStylusRmsMm()
 {
   return numberOf(this->Internal->Stylus, "/rmsMm");

@@ -64,7 +64,8 @@ std::vector<io::NamedTransform> fixedTransforms(
     if (!known)
     {
       warnings.push_back(sources.stylus.string() +
-        ": the direction of the shaft is not known; StylusTipToStylus has the axes of the marker. `handeye spin` finds it");
+        ": the direction of the shaft is not known; StylusTipToStylus has the axes of the marker. the wizard's page Stylus and "
+        "`handeye spin` find it");
     }
     transforms.push_back({ "StylusTip", "Stylus", stylusTipToStylus, figure(sources.stylus, "rmsMm"), date });
   }

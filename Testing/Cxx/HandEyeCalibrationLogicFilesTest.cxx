@@ -125,6 +125,22 @@ TEST_F(HandEyeCalibrationLogicFiles, BadFiles_AreRefusedAndTheResultsKept)
   EXPECT_TRUE(Subject->Recalibrate()) << "the capture is still there, too";
 }
 
+TEST_F(HandEyeCalibrationLogicFiles, ShaftOfASpunStylus_IsKnown)
+{
+  const TemporaryFolder folder;
+  Eigen::Vector3d shaft_Stylus(7, 7, 7);
+  ASSERT_TRUE(Subject->LoadStylus(folder.write("stylus.json", R"({"status": "ok", "tip_Stylus_Mm": [0, 0, -150]})").string()));
+  EXPECT_FALSE(Subject->GetStylusShaft(shaft_Stylus.data()));
+  EXPECT_EQ(shaft_Stylus, Eigen::Vector3d(7, 7, 7));
+  const std::string spun = folder
+                             .write("spun.json", R"({"status": "ok", "tip_Stylus_Mm": [0, 0, -150],
+    "stylusTipToStylus": [[1, 0, 0, 0], [0, -1, 0, 0], [0, 0, -1, -150], [0, 0, 0, 1]]})")
+                             .string();
+  ASSERT_TRUE(Subject->LoadStylus(spun)) << Subject->GetLastMessage();
+  ASSERT_TRUE(Subject->GetStylusShaft(shaft_Stylus.data()));
+  EXPECT_EQ(shaft_Stylus, Eigen::Vector3d(0, 0, 1)) << "-Z of the tip's frame";
+}
+
 TEST_F(HandEyeCalibrationLogicFiles, OddFiguresInAFile_AreNotKnown)
 {
   const TemporaryFolder folder;
