@@ -23,8 +23,10 @@ BallPage::BallPage(HandEyeWorkbench& workbench, QWidget* parent)
   ui_->foundLabel->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   ui_->foundLabel->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   connect(ui_->radiusSpin, qOverload<double>(&QDoubleSpinBox::valueChanged), &workbench_, &HandEyeWorkbench::setBallRadius);
-  connect(ui_->forgetButton, &QPushButton::clicked, &workbench_, &HandEyeWorkbench::forgetBallColor);
-  connect(ui_->stages, &StagesView::imageClicked, &workbench_, &HandEyeWorkbench::learnBallColor);
+  connect(ui_->forgetButton, &QToolButton::clicked, &workbench_, &HandEyeWorkbench::forgetBallColor);
+  connect(ui_->undoButton, &QToolButton::clicked, &workbench_, &HandEyeWorkbench::takeFormerBallColor);
+  connect(ui_->stages, &StagesView::imageClicked, this,
+    [this](const QPointF& point_Image) { workbench_.learnBallColor(inStages_, point_Image); });
   connect(ui_->measureButton, &QPushButton::clicked, &workbench_, &HandEyeWorkbench::measureLatency);
   connect(&workbench_.latency(), &LatencyTask::progressed, this,
     [this](double share) { ui_->latencyProgress->setValue(int(100 * share)); });
@@ -34,9 +36,9 @@ BallPage::BallPage(HandEyeWorkbench& workbench, QWidget* parent)
 
 BallPage::~BallPage() = default;
 
-void BallPage::clickInVideo(const QPointF& point_Image)
+void BallPage::clickInVideo(const std::shared_ptr<const LiveView>& shown, const QPointF& point_Image)
 {
-  workbench_.learnBallColor(point_Image);
+  workbench_.learnBallColor(shown, point_Image);
 }
 
 void BallPage::showFrame()
@@ -49,6 +51,7 @@ void BallPage::showFrame()
   if (view->stages)
   {
     ui_->stages->setStages(view->image(), *view->stages);
+    inStages_ = view;
   }
   if (!view->problem.isEmpty())
   {
@@ -72,7 +75,7 @@ void BallPage::refresh()
     const QSignalBlocker blocker(ui_->radiusSpin);
     ui_->radiusSpin->setValue(ball.radiusMm);
   }
-  ui_->colorLabel->setText(ball.isColorLearnt ? tr("learnt: hue %1°").arg(ball.color.hueDeg, 0, 'f', 0) : tr("any saturated red"));
+  ui_->colorLabel->setText(HandEyeWorkbench::nameOf(ball.color, ball.isColorLearnt));
   ui_->colorLabel->setToolTip(ball.message);
   QPixmap swatch(QSize(18, 18) * devicePixelRatioF());
   swatch.setDevicePixelRatio(devicePixelRatioF());
@@ -80,6 +83,10 @@ void BallPage::refresh()
   swatch.fill(QColor::fromHsvF(std::min(hueDeg / 360, 0.9999), 0.85, 0.8));
   ui_->swatchLabel->setPixmap(swatch);
   ui_->forgetButton->setEnabled(ball.isColorLearnt);
+  ui_->undoButton->setEnabled(ball.former.has_value());
+  ui_->undoButton->setToolTip(ball.former
+      ? tr("Back to the colour before the last click: %1").arg(HandEyeWorkbench::nameOf(ball.former->color, ball.former->isLearnt))
+      : tr("Back to the colour before the last click"));
   const bool isMeasuring = workbench_.latency().isRunning();
   ui_->measureButton->setEnabled(!isMeasuring && workbench_.camera() && workbench_.stylus() && workbench_.devices().isConnected());
   ui_->latencyProgress->setVisible(isMeasuring);

@@ -24,12 +24,13 @@ public:
   ~BallPage() override;
 
   void refresh() override;
-  void clickInVideo(const QPointF& point_Image) override;
+  void clickInVideo(const std::shared_ptr<const LiveView>& shown, const QPointF& point_Image) override;
 
 private:
   void showFrame();
 
   std::unique_ptr<Ui::BallPage> ui_;
+  std::shared_ptr<const LiveView> inStages_;  ///< the frame whose pictures are shown
 };
 
 }  // namespace handeye

@@ -117,7 +117,7 @@ std::vector<std::shared_ptr<devices::Source>> DeviceHub::makeSources()
   };
   if (setup_.kind == DeviceSetup::Kind::SimulatedRoom)
   {
-    room_ = std::make_shared<SimulatedRoomServer>(roomOptions_);
+    room_ = std::make_shared<SimulatedRoomServer>(roomOptions_, roomPhantom_.toStdString());
     addServer("127.0.0.1", room_->port());
     return sources;
   }

@@ -79,6 +79,8 @@ public:
   /// The room that kind SimulatedRoom has; the default one until set.
   void setRoomOptions(const simulation::RoomOptions& room) { roomOptions_ = room; }
   const simulation::RoomOptions& roomOptions() const { return roomOptions_; }
+  /// The mesh that its phantom looks like; see SimulatedRoomServer.
+  void setRoomPhantom(const QString& file) { roomPhantom_ = file; }
 
   /// Connects to what the setup names, and leaves what was connected before. @return false with problem() where it makes no sense
   bool connectDevices(const DeviceSetup& setup);
@@ -123,6 +125,7 @@ private:
 
   DeviceSetup setup_;
   simulation::RoomOptions roomOptions_;
+  QString roomPhantom_;
   SampleHandler onSample_;
   FrameHandler onFrame_, onRightFrame_;
   std::shared_ptr<SimulatedRoomServer> room_;

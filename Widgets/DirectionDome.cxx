@@ -43,6 +43,7 @@ QPointF polar(const QPointF& center, double radius, double angleDeg)
 
 DirectionDome::DirectionDome(QWidget* parent)
   : QWidget(parent)
+  , target_(DomeCoverage::PosesEach)
 {
   static_assert(DomeCoverage::Cells == 17, "the array of the header");
   this->setAccessibleName(tr("Directions of the stylus"));

@@ -28,7 +28,7 @@ public:
   explicit DirectionDome(QWidget* parent = nullptr);
 
   void setCoverage(const DomeCoverage& coverage);
-  /// Poses a cell needs to be full; 3 until set.
+  /// Poses a cell needs to be full; that of DomeCoverage until set.
   void setTarget(int posesPerCell);
   /// Where the shaft points now: x, y in the dome's frame, 1 being its rim; nothing takes the mark away.
   void setCurrentDirection(const std::optional<QPointF>& direction_Dome);
@@ -65,7 +65,7 @@ private:
   void updateAccessibility();
 
   std::array<int, 17> poses_{};
-  int target_ = 3;
+  int target_;
   std::optional<QPointF> direction_Dome_;
   double viewAngleDeg_ = 0;
   QString hint_, error_;

@@ -136,7 +136,8 @@ void HandEyeCalibrationPanel::Private::connectAll()
       [this](int done, int total, const QString& what) { showProgress(done, total, what); });
     connect(task, &handeye::CaptureTask::busyChanged, &q, [this, task] { ui.progressBox->setVisible(task->isBusy()); });
   }
-  connect(video.get(), &handeye::VideoView::imageClicked, &q, [this](const QPointF& point) { currentPage().clickInVideo(point); });
+  connect(video.get(), &handeye::VideoView::imageClicked, &q,
+    [this](const QPointF& point) { currentPage().clickInVideo(presenter->onScreen(), point); });
   connect(video.get(), &handeye::VideoView::keyPressed, &q,
     [this](int key, Qt::KeyboardModifiers modifiers)
     {

@@ -25,6 +25,7 @@ HandEyeWorkbench::HandEyeWorkbench(QObject* parent)
   , live_(new LivePipeline(*work_, this))
   , lens_(new LensTask(*work_, this))
   , pivot_(new PivotTask(*work_, this))
+  , spin_(new SpinTask(*work_, this))
   , latency_(new LatencyTask(*work_, this))
   , touch_(std::make_unique<TouchTask>())
   , capture_(new CaptureTask(*work_, this))
@@ -32,6 +33,7 @@ HandEyeWorkbench::HandEyeWorkbench(QObject* parent)
   , comparison_(new ComparisonTask(this))
 {
   connectTasks();
+  devices_->setRoomPhantom(ownModel());
   try
   {
     simulation::RoomOptions room;
@@ -87,7 +89,24 @@ void HandEyeWorkbench::connectTasks()
         true);
     });
   connect(pivot_, &PivotTask::refused, this, [this](const QString& message) { refuse(WizardStep::Stylus, message); });
-  connect(pivot_, &PivotTask::collectingChanged, this, &HandEyeWorkbench::stateChanged);
+  connect(pivot_, &PivotTask::collectingChanged, this,
+    [this]
+    {
+      if (pivot_->isCollecting())
+      {
+        spin_->cancel();
+      }
+      emit stateChanged();
+    });
+  connect(spin_, &SpinTask::calibrated, this, &HandEyeWorkbench::takeSpin);
+  connect(spin_, &SpinTask::refused, this,
+    [this](const QString& message) { refuse(WizardStep::Stylus, tr("The shaft: %1.").arg(message)); });
+  connect(spin_, &SpinTask::collectingChanged, this,
+    [this]
+    {
+      playRoom();
+      emit stateChanged();
+    });
   connect(latency_, &LatencyTask::measured, this,
     [this](const TemporalCalibrationResult& result)
     {
@@ -126,6 +145,7 @@ void HandEyeWorkbench::connectTasks()
 void HandEyeWorkbench::onSample(const devices::DeviceSample& sample)
 {
   pivot_->onSample(sample);
+  spin_->onSample(sample);
   latency_->onSample(sample);
   touch_->onSample(sample);
 }
@@ -221,12 +241,6 @@ void HandEyeWorkbench::enterStep(WizardStep step)
   {
     storeStep();
   }
-  const bool isMeasuring = latency_->isRunning();
-  static const std::map<WizardStep, RoomScene> scenes = { { WizardStep::Stylus, RoomScene::Pivot },
-    { WizardStep::Capture, RoomScene::Placements }, { WizardStep::Validation, RoomScene::OtherPlacements },
-    { WizardStep::Overlay, RoomScene::Landmarks } };
-  const auto scene = scenes.find(step);
-  devices_->playRoom(isMeasuring || scene == scenes.end() ? RoomScene::Free : scene->second);
   if (step != WizardStep::Capture)
   {
     capture_->setHandsFree(false);
@@ -242,9 +256,22 @@ void HandEyeWorkbench::enterStep(WizardStep step)
   if (step != WizardStep::Stylus)
   {
     pivot_->cancel();
+    spin_->cancel();
   }
+  playRoom();
   updateLive();
   emit stepEntered();
+}
+
+/// What the people in the simulated room do for the page and its task.
+void HandEyeWorkbench::playRoom()
+{
+  static const std::map<WizardStep, RoomScene> scenes = { { WizardStep::Stylus, RoomScene::Pivot },
+    { WizardStep::Ball, RoomScene::Rest }, { WizardStep::Capture, RoomScene::Placements },
+    { WizardStep::Validation, RoomScene::OtherPlacements }, { WizardStep::Overlay, RoomScene::Landmarks } };
+  const auto scene = scenes.find(step_);
+  const bool isFree = latency_->isRunning() || scene == scenes.end();
+  devices_->playRoom(isFree ? RoomScene::Free : spin_->isCollecting() ? RoomScene::Spin : scene->second);
 }
 
 void HandEyeWorkbench::updateLive()

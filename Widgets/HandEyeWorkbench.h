@@ -16,6 +16,7 @@
 #include "OverlayMesh.h"
 #include "OverlayPose.h"
 #include "PivotTask.h"
+#include "SpinTask.h"
 #include "TouchTask.h"
 #include "ValidationStep.h"
 
@@ -74,16 +75,22 @@ public:
     double rmsMm = 0;
     QString message;
     nlohmann::json document;
-    /// With the direction of the shaft, where `handeye spin` found it. p_Stylus = stylusTipToStylus * p_StylusTip
+    /// With the direction of the shaft, where it was spun. p_Stylus = stylusTipToStylus * p_StylusTip
     std::optional<Eigen::Isometry3d> stylusTipToStylus = std::nullopt;
+  };
+  struct FormerColor
+  {
+    BallColor color;
+    bool isLearnt = false;
   };
   struct Ball
   {
     double radiusMm = 15;
     BallColor color;
     bool isColorLearnt = false;
-    bool wasSeen = false;  ///< found at least once with this colour and radius
-    QString message;       ///< of the last click
+    bool wasSeen = false;               ///< found at least once with this colour and radius
+    QString message;                    ///< of the last click
+    std::optional<FormerColor> former;  ///< what a click has replaced
   };
 
   explicit HandEyeWorkbench(QObject* parent = nullptr);
@@ -92,6 +99,7 @@ public:
   DeviceHub& devices() { return *devices_; }
   LivePipeline& live() { return *live_; }
   PivotTask& pivot() { return *pivot_; }
+  SpinTask& spin() { return *spin_; }
   LensTask& lens() { return *lens_; }
   LatencyTask& latency() { return *latency_; }
   TouchTask& touch() { return *touch_; }
@@ -133,11 +141,20 @@ public:
   /// A tip whose exactness is not known. @param origin where it is from, for a person
   void takeStylusTip(const Eigen::Vector3d& tip_Stylus, const QString& origin);
   const std::optional<Stylus>& stylus() const { return stylus_; }
+  /// Begins to look for the direction of the stylus' shaft, which is optional; refused in words without a tip.
+  void spinStylus();
+  /// How the shaft of the stylus was found, a sentence; empty while its direction is not known.
+  QString shaftWords() const;
   void setBallRadius(double radiusMm);
-  /// From the newest frame of the live video. @param point_Image px
-  void learnBallColor(const QPointF& point_Image);
+  /// From a click on the ball. Where no ball is found there with the colour of the click, that is refused in words, and the colour
+  /// stays what it was. @param shown the frame that was clicked on; null: there was none. @param point_Image px
+  void learnBallColor(const std::shared_ptr<const LiveView>& shown, const QPointF& point_Image);
+  /// Back to what the last click has replaced.
+  void takeFormerBallColor();
   void forgetBallColor();
   const Ball& ball() const { return ball_; }
+  /// "any saturated red", "learnt: hue 120°"
+  static QString nameOf(const BallColor& color, bool isLearnt);
   void measureLatency();
 
   // Calibration and validation
@@ -264,11 +281,14 @@ private:
   void takeDocuments(const std::map<std::string, nlohmann::json>& documents, const QStringList& problems);
   void restoreFiles(const std::map<std::string, nlohmann::json>& documents);
   void storeBall();
+  void setBallColor(const BallColor& color, bool isLearnt, const QString& message);
   void storeDevices();
   void storeStep();
   void setSessionUsed();
   void store(const std::string& name, const nlohmann::json& document);
   void setStylus(const Stylus& stylus, bool isNew);
+  void takeSpin(const SpinStepResult& result);
+  void playRoom();
   void storeModel();
   void setModelToPhantom(const std::optional<Eigen::Isometry3d>& modelToPhantom, const QString& madeForModel);
   void updateInputs();
@@ -293,6 +313,7 @@ private:
   LivePipeline* live_;
   LensTask* lens_;
   PivotTask* pivot_;
+  SpinTask* spin_;
   LatencyTask* latency_;
   std::unique_ptr<TouchTask> touch_;
   CaptureTask* capture_;

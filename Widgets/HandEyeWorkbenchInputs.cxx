@@ -5,6 +5,7 @@
 #include "HandEyeWorkbench.h"
 #include "JsonEigen.h"
 #include "ResultFiles.h"
+#include "SpinStep.h"
 #include "WorkThread.h"
 
 #include <utility>
@@ -101,8 +102,51 @@ void HandEyeWorkbench::useCalibratedLens()
   }
 }
 
+void HandEyeWorkbench::spinStylus()
+{
+  if (!stylus_)
+  {
+    refuse(WizardStep::Stylus, tr("The shaft is looked for from the tip on: pivot the stylus, or load a stylus file, first."));
+    return;
+  }
+  pivot_->cancel();
+  spin_->start(devices_->setup().stylusToTracker, stylus_->tip_Stylus);
+}
+
+/// The same entries that `handeye spin` adds to a stylus' file.
+void HandEyeWorkbench::takeSpin(const SpinStepResult& result)
+{
+  if (!stylus_)
+  {
+    return;
+  }
+  Stylus spun = *stylus_;
+  spun.document = spinJson(result, spun.document);
+  spun.stylusTipToStylus = result.calibration.stylusTipToStylus;
+  setStylus(spun, true);
+}
+
+QString HandEyeWorkbench::shaftWords() const
+{
+  if (!stylus_ || !stylus_->stylusTipToStylus)
+  {
+    return {};
+  }
+  const nlohmann::json::json_pointer words("/spin/message"), besideMm("/spin/tipToAxisMm");
+  const nlohmann::json& document = stylus_->document;
+  const bool hasWords = document.contains(words) && document[words].is_string();
+  QString sentence = hasWords ? QString::fromStdString(document[words].get<std::string>()) : tr("known from the file");
+  if (document.contains(besideMm) && document[besideMm].is_number())
+  {
+    sentence = tr("%1; the tip lies %2 mm beside it").arg(sentence).arg(document[besideMm].get<double>(), 0, 'f', 2);
+  }
+  return sentence;
+}
+
 void HandEyeWorkbench::loadStylus(const QString& path)
 {
+  pivot_->forget();
+  spin_->cancel();
   beside(WizardStep::Stylus,
     [this, path]
     {
@@ -117,6 +161,8 @@ void HandEyeWorkbench::loadStylus(const QString& path)
 
 void HandEyeWorkbench::takeStylusTip(const Eigen::Vector3d& tip_Stylus, const QString& origin)
 {
+  pivot_->forget();
+  spin_->cancel();
   Stylus stylus;
   stylus.tip_Stylus = tip_Stylus;
   stylus.message = tr("Tip %1, %2, %3 mm, %4; how exact it is, is not known.")
@@ -136,6 +182,10 @@ void HandEyeWorkbench::setStylus(const Stylus& stylus, bool isNew)
   {
     store("stylus", stylus.document);
     emit happened(tr("stylus: %1").arg(stylus.message));
+    if (const QString shaft = shaftWords(); !shaft.isEmpty())
+    {
+      emit happened(tr("stylus: %1").arg(shaft));
+    }
   }
   emit stylusChanged();
   updateInputs();
@@ -153,46 +203,69 @@ void HandEyeWorkbench::setBallRadius(double radiusMm)
   }
 }
 
-void HandEyeWorkbench::learnBallColor(const QPointF& point_Image)
+QString HandEyeWorkbench::nameOf(const BallColor& color, bool isLearnt)
 {
-  const std::shared_ptr<const LiveView> view = live_->newest();
-  if (!view)
+  return isLearnt ? tr("learnt: hue %1°").arg(color.hueDeg, 0, 'f', 0) : tr("any saturated red");
+}
+
+void HandEyeWorkbench::learnBallColor(const std::shared_ptr<const LiveView>& shown, const QPointF& point_Image)
+{
+  if (!shown || !camera_)
   {
-    refuse(WizardStep::Ball, tr("There is no video to click on."));
+    refuse(WizardStep::Ball, shown ? missingFor(WizardStep::Ball) : tr("There is no video to click on."));
     return;
   }
   beside(WizardStep::Ball,
-    [this, view, pixel = cv::Point(qRound(point_Image.x()), qRound(point_Image.y()))]
+    [this, shown, camera = camera_->file.camera, radiusMm = ball_.radiusMm,
+      pixel = cv::Point(qRound(point_Image.x()), qRound(point_Image.y()))]
     {
-      const BallColorLearningResult learnt = handeye::learnBallColor(view->image(), pixel);
+      const cv::Mat& image = shown->image();
+      const BallColorLearningResult learnt =
+        handeye::learnBallColor(image, pixel, camera.withImageSize(image.cols, image.rows), radiusMm);
       tell(
         [this, learnt]
         {
           const QString message = QString::fromStdString(learnt.message);
           if (!learnt.isUsable())
           {
-            refuse(WizardStep::Ball, message);
+            refuse(WizardStep::Ball,
+              tr("There is no ball at the place clicked: %1. The colour of before is kept (%2). Click on the middle of the ball.")
+                .arg(message, nameOf(ball_.color, ball_.isColorLearnt)));
             return;
           }
-          ball_.color = learnt.color;
-          ball_.isColorLearnt = true;
-          ball_.wasSeen = false;
-          ball_.message = message;
-          storeBall();
-          emit ballChanged();
-          emit happened(tr("ball: %1").arg(message));
-          updateInputs();
+          ball_.former = FormerColor{ ball_.color, ball_.isColorLearnt };
+          setBallColor(learnt.color, true, message);
         });
     });
 }
 
+void HandEyeWorkbench::takeFormerBallColor()
+{
+  if (const std::optional<FormerColor> former = std::exchange(ball_.former, std::nullopt))
+  {
+    setBallColor(
+      former->color, former->isLearnt, tr("the colour of before the last click: %1").arg(nameOf(former->color, former->isLearnt)));
+  }
+}
+
 void HandEyeWorkbench::forgetBallColor()
 {
-  ball_.color = {};
-  ball_.isColorLearnt = ball_.wasSeen = false;
-  ball_.message.clear();
+  ball_.former = FormerColor{ ball_.color, ball_.isColorLearnt };
+  setBallColor({}, false, {});
+}
+
+void HandEyeWorkbench::setBallColor(const BallColor& color, bool isLearnt, const QString& message)
+{
+  ball_.color = color;
+  ball_.isColorLearnt = isLearnt;
+  ball_.wasSeen = false;
+  ball_.message = message;
   storeBall();
   emit ballChanged();
+  if (!message.isEmpty())
+  {
+    emit happened(tr("ball: %1").arg(message));
+  }
   updateInputs();
 }
 

@@ -103,6 +103,8 @@ void HandEyeWorkbench::openSession(const QString& folder)
   isSessionUsed_ = false;
   exportedFolder_.clear();
   storedStep_.reset();
+  pivot_->forget();
+  spin_->cancel();
   emit resultsForgotten();
   emit modelChanged();
   emit registrationChanged();

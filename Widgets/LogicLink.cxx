@@ -53,9 +53,16 @@ LogicLink::~LogicLink()
 
 bool LogicLink::isStylusTheSame() const
 {
-  double tip[3] = {};
-  return logic_->HasStylusDocument() && workbench_.stylus() && logic_->GetStylusTip(tip) &&
-    workbench_.stylus()->tip_Stylus.isApprox(Eigen::Vector3d(tip), SameNumber);
+  double tip[3] = {}, shaft[3] = {};
+  if (!logic_->HasStylusDocument() || !workbench_.stylus() || !logic_->GetStylusTip(tip) ||
+    !workbench_.stylus()->tip_Stylus.isApprox(Eigen::Vector3d(tip), SameNumber))
+  {
+    return false;
+  }
+  const std::optional<Eigen::Isometry3d>& stylusTipToStylus = workbench_.stylus()->stylusTipToStylus;
+  const bool hasShaft = logic_->GetStylusShaft(shaft);
+  return hasShaft == stylusTipToStylus.has_value() &&
+    (!hasShaft || Eigen::Vector3d(-stylusTipToStylus->linear().col(2)).isApprox(Eigen::Vector3d(shaft), SameNumber));
 }
 
 void LogicLink::giveStylus()

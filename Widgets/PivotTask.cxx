@@ -4,6 +4,7 @@
 
 #include "WorkThread.h"
 
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -18,6 +19,14 @@ PivotTask::PivotTask(WorkThread& work, QObject* parent)
   connect(&timer_, &QTimer::timeout, this, &PivotTask::poll);
 }
 
+QString PivotTask::wordsOf(const PivotCollector::Counts& counts)
+{
+  const long long spare = counts.redundant + counts.repeated;
+  const QString words =
+    tr("%1 used of %2: %3 hidden, %4 disagree").arg(counts.kept).arg(counts.total()).arg(counts.invalid).arg(counts.disagreeing);
+  return spare > 0 ? tr("%1, %2 tell nothing new").arg(words).arg(spare) : words;
+}
+
 void PivotTask::start(const QString& stylusToTracker)
 {
   {
@@ -25,6 +34,7 @@ void PivotTask::start(const QString& stylusToTracker)
     collector_ = std::make_shared<PivotCollector>();
     name_ = stylusToTracker.toStdString();
   }
+  ++run_;
   state_ = {};
   isCollecting_ = true;
   timer_.start();
@@ -44,7 +54,20 @@ void PivotTask::cancel()
   }
 }
 
+void PivotTask::forget()
+{
+  cancel();
+  ++run_;
+  state_ = {};
+  emit progressed();
+}
+
 void PivotTask::finish()
+{
+  finishAs(End::ByPerson);
+}
+
+void PivotTask::finishAs(End end)
 {
   std::shared_ptr<PivotCollector> collector;
   {
@@ -57,7 +80,7 @@ void PivotTask::finish()
     return;
   }
   work_.post(
-    [this, collector]
+    [this, collector, end, run = run_]
     {
       PivotStepResult result;
       result.calibration = collector->calibrate();
@@ -66,12 +89,40 @@ void PivotTask::finish()
       result.repeatedFrames = result.calibration.repeated;
       result.poseFrames.resize(collector->poses().size());
       std::iota(result.poseFrames.begin(), result.poseFrames.end(), 0);
+      State state;
+      state.counts = collector->countsWith(result.calibration);
+      state.estimate = result.calibration;
+      state.coverage = collector->coverage();
+      state.predictedTipErrorMm = std::sqrt(result.calibration.tipCovariance.trace());
+      state.hasTipMoved = collector->hasTipMoved();
+      state.isExact = end == End::Enough;
+      state.end = end;
+      if (result.calibration.isUsable())
+      {
+        // What was never kept counts as well.
+        result.calibration.message = tr("Tip found with %1 mm RMS. Poses: %2.")
+                                       .arg(result.calibration.rmsMm, 0, 'f', 2)
+                                       .arg(wordsOf(state.counts))
+                                       .toStdString();
+      }
+      QMetaObject::invokeMethod(
+        this,
+        [this, state, run]
+        {
+          if (run == run_)
+          {
+            state_ = state;
+            emit progressed();
+          }
+        },
+        Qt::QueuedConnection);
       tell(result);
     });
 }
 
 void PivotTask::calibrateRecording(const QString& path, const QString& stylusToTracker)
 {
+  forget();
   work_.post(
     [this, file = path.toStdString(), name = stylusToTracker.toStdString()]
     {
@@ -133,9 +184,13 @@ void PivotTask::poll()
     state_.coverage = collector_->coverage();
     state_.predictedTipErrorMm = collector_->predictedTipErrorMm();
     state_.hasTipMoved = collector_->hasTipMoved();
-    state_.isEnough = collector_->isEnough();
+    state_.isExact = collector_->isEnough();
   }
   emit progressed();
+  if (state_.isExact && state_.coverage.isEnough())
+  {
+    finishAs(End::Enough);
+  }
 }
 
 }  // namespace handeye

@@ -19,7 +19,8 @@ namespace handeye
 
 class WorkThread;
 
-/// Pivot calibration of the stylus, live or from a recording; see PivotCollector and pivotFromRecording().
+/// Pivot calibration of the stylus, live or from a recording; see PivotCollector and pivotFromRecording(). Live it ends by itself
+/// once the tip is known well enough and enough directions are covered.
 ///
 /// Belongs to the thread of the user interface; onSample() to the sources'.
 class PivotTask : public QObject
@@ -27,15 +28,28 @@ class PivotTask : public QObject
   Q_OBJECT
 
 public:
-  /// How the pivoting stands.
+  enum class End
+  {
+    None,     ///< under way, or there was no pivoting
+    Enough,   ///< by itself
+    ByPerson  ///< finish() was asked for before
+  };
+
+  /// How the pivoting stands; once it has ended, what its result rests on.
   struct State
   {
-    PivotCollector::Counts counts;
+    PivotCollector::Counts counts;  ///< `kept` are the poses used
     PivotCalibrationResult estimate;
     DomeCoverage coverage;
     double predictedTipErrorMm = 0;
-    bool hasTipMoved = false, isEnough = false;
+    bool hasTipMoved = false;
+    bool isExact = false;  ///< the tip is known well enough
+    End end = End::None;
   };
+  /// The tip's predicted error that is looked for, mm.
+  static double enoughTipErrorMm() { return PivotCollectorOptions().enoughTipErrorMm; }
+  /// "290 used of 300: 6 hidden, 4 disagree": of the poses that came, the same wherever it stands.
+  static QString wordsOf(const PivotCollector::Counts& counts);
 
   explicit PivotTask(WorkThread& work, QObject* parent = nullptr);
 
@@ -45,6 +59,8 @@ public:
   void finish();
   /// Ends it without a result.
   void cancel();
+  /// The same, and what was pivoted before is not the stylus of now.
+  void forget();
   bool isCollecting() const { return isCollecting_; }
   const State& state() const { return state_; }
 
@@ -63,10 +79,12 @@ signals:
 
 private:
   void poll();
+  void finishAs(End end);
   void tell(const PivotStepResult& result);
 
   WorkThread& work_;
   bool isCollecting_ = false;
+  int run_ = 0;  ///< counts the starts: what an earlier one found late is not the state of the next
   State state_;
   QTimer timer_;
 

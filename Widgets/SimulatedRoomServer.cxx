@@ -4,6 +4,7 @@
 
 #include "OpenIGTLinkMessage.h"
 #include "OpenIGTLinkServer.h"
+#include "RoomPhantom.h"
 
 #include <chrono>
 #include <map>
@@ -28,8 +29,9 @@ void sendPoses(devices::OpenIGTLinkServer& server, const simulation::SimulatedRo
 
 }  // namespace
 
-SimulatedRoomServer::SimulatedRoomServer(const simulation::RoomOptions& room)
+SimulatedRoomServer::SimulatedRoomServer(const simulation::RoomOptions& room, const std::filesystem::path& phantomFile)
   : room_(room)
+  , phantomFile_(phantomFile)
 {
   room_.check();
   devices::OpenIGTLinkServerOptions options;
@@ -67,10 +69,14 @@ void SimulatedRoomServer::play(RoomScene scene, int firstPlace)
 simulation::RoomOptions SimulatedRoomServer::optionsOf(RoomScene scene) const
 {
   simulation::RoomOptions options = room_;
+  options.phantomMesh = phantomMesh_ ? phantomMesh_ : options.phantomMesh;
   switch (scene)
   {
     case RoomScene::Pivot:
       options.motion = simulation::RoomMotion::Pivot;
+      break;
+    case RoomScene::Spin:
+      options.motion = simulation::RoomMotion::Spin;
       break;
     case RoomScene::OtherPlacements:
       options.seed += 17;
@@ -84,6 +90,9 @@ simulation::RoomOptions SimulatedRoomServer::optionsOf(RoomScene scene) const
       options.motion = room_.landmarks_Model.empty() ? simulation::RoomMotion::Free : simulation::RoomMotion::Landmarks;
       options.holdSec = 3600;  // until it is taken: the next landmark is begun with then
       break;
+    case RoomScene::Rest:
+      options.motion = simulation::RoomMotion::Rest;
+      break;
     case RoomScene::Free:
       options.motion = simulation::RoomMotion::Free;
       break;
@@ -91,9 +100,26 @@ simulation::RoomOptions SimulatedRoomServer::optionsOf(RoomScene scene) const
   return options;
 }
 
+void SimulatedRoomServer::readPhantom()
+{
+  if (phantomFile_.empty())
+  {
+    return;
+  }
+  try
+  {
+    phantomMesh_ = readRoomMesh(phantomFile_);
+  }
+  catch (const std::exception&)
+  {
+    // The page Overlay, which needs the file, says what is wrong with it.
+  }
+}
+
 /// Poses and pictures at their times. A computer that is too slow for the pictures sends fewer of them, never later ones.
 void SimulatedRoomServer::run()
 {
+  readPhantom();
   std::map<RoomScene, std::unique_ptr<simulation::SimulatedRoom>> rooms;
   RoomScene scene = RoomScene::Free;
   int sceneCount = -1;

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -22,9 +23,11 @@ class OpenIGTLinkServer;
 enum class RoomScene
 {
   Pivot,            ///< the stylus turns about its resting tip
+  Spin,             ///< the stylus is spun about its shaft
   Placements,       ///< the ball is held at one place after another
   OtherPlacements,  ///< the same at other places: what a calibration is validated on
   Free,             ///< the ball moves through the view
+  Rest,             ///< the ball is held still in the view
   Landmarks         ///< the landmarks of the phantom are touched one after another
 };
 
@@ -36,8 +39,10 @@ class SimulatedRoomServer
 {
 public:
   /// @param room what is there; its motion is that of the scenes
+  /// @param phantomFile the mesh that the phantom looks like; read in the server's thread. Where there is none, or it cannot be read,
+  /// the phantom is a few balls
   /// @throws devices::ConnectionError where no port can be had; std::invalid_argument for options that make no sense
-  explicit SimulatedRoomServer(const simulation::RoomOptions& room = {});
+  explicit SimulatedRoomServer(const simulation::RoomOptions& room = {}, const std::filesystem::path& phantomFile = {});
   ~SimulatedRoomServer();
   SimulatedRoomServer(const SimulatedRoomServer&) = delete;
   SimulatedRoomServer& operator=(const SimulatedRoomServer&) = delete;
@@ -51,9 +56,12 @@ public:
 
 private:
   void run();
+  void readPhantom();
   simulation::RoomOptions optionsOf(RoomScene scene) const;
 
-  simulation::RoomOptions room_;
+  const simulation::RoomOptions room_;
+  const std::filesystem::path phantomFile_;
+  std::shared_ptr<const simulation::RoomMesh> phantomMesh_;  ///< of the server's thread
   std::unique_ptr<devices::OpenIGTLinkServer> server_;
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -14,7 +14,8 @@ class StylusPage;
 namespace handeye
 {
 
-/// The stylus' tip: pivoted live, with the dome of directions filling, or from a recording or a file.
+/// The stylus' tip: pivoted live, with the dome of directions filling, or from a recording or a file; and, where it is wanted, the
+/// direction of its shaft, by spinning.
 class StylusPage : public WizardPage
 {
   Q_OBJECT
@@ -27,7 +28,13 @@ public:
   void refresh() override;
 
 private:
+  void connectPivot();
+  void connectSpin();
   void showProgress();
+  QString intro() const;
+  QString hint() const;
+  void showSpin();
+  void refreshSpin();
 
   std::unique_ptr<Ui::StylusPage> ui_;
 };

@@ -47,6 +47,7 @@ VideoPresenter::VideoPresenter(HandEyeWorkbench& workbench, VideoView& view, QOb
   , overlay_(new OverlayPresenter(workbench, view, this))
 {
   connect(&workbench_.live(), &LivePipeline::shown, this, &VideoPresenter::showFrame);
+  connect(&view_, &VideoView::rendered, this, [this] { onScreen_ = given_; });
   connect(&workbench_, &HandEyeWorkbench::cameraChanged, this, &VideoPresenter::setLens);
   connect(&workbench_, &HandEyeWorkbench::calibrationChanged, this, &VideoPresenter::showGhost);
   connect(&workbench_, &HandEyeWorkbench::stepEntered, this,
@@ -74,6 +75,8 @@ VideoPresenter::VideoPresenter(HandEyeWorkbench& workbench, VideoView& view, QOb
       if (!workbench_.devices().isConnected())
       {
         silence_.stop();
+        given_.reset();
+        onScreen_.reset();
         view_.setFrame({});
         view_.setDetection({});
         view_.setBanner({}, Level::Info);
@@ -100,6 +103,8 @@ void VideoPresenter::showFrame()
   const std::shared_ptr<const LiveView> shown = workbench_.live().newest();
   if (!shown)
   {
+    given_.reset();
+    onScreen_.reset();
     view_.setFrame({});
     view_.setDetection({});
     overlay_->hide({});
@@ -122,6 +127,7 @@ void VideoPresenter::showFrame()
   try
   {
     view_.setFrame(toEightBit(shown->image()));
+    given_ = shown;
     view_.setBanner(shown->problem, Level::Error);
     showBall(*shown);
     overlay_->show(*shown);

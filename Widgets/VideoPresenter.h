@@ -23,6 +23,8 @@ public:
   VideoPresenter(HandEyeWorkbench& workbench, VideoView& view, QObject* parent = nullptr);
 
   OverlayPresenter& overlay() { return *overlay_; }
+  /// The frame that is on the screen, which is what a click means; the newest one may be later. Null without one.
+  std::shared_ptr<const LiveView> onScreen() const { return onScreen_; }
 
 private:
   void showFrame();
@@ -33,6 +35,7 @@ private:
   HandEyeWorkbench& workbench_;
   VideoView& view_;
   OverlayPresenter* overlay_;
+  std::shared_ptr<const LiveView> given_, onScreen_;  ///< to be drawn, and drawn
   QElapsedTimer sinceShown_;
   qint64 costMs_ = 0;  ///< of the last frame, drawing included
   QTimer catchUp_;     ///< runs while a frame was left out that may be the last

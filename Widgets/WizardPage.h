@@ -32,8 +32,8 @@ public:
   virtual void refresh() {}
   /// A key pressed in the video. @return whether it meant something here
   virtual bool keyInVideo(int /*key*/) { return false; }
-  /// A click in the video, px of the image.
-  virtual void clickInVideo(const QPointF& /*point_Image*/) {}
+  /// A click in the video. @param shown the frame that a person saw there then, @param point_Image px of it
+  virtual void clickInVideo(const std::shared_ptr<const LiveView>& /*shown*/, const QPointF& /*point_Image*/) {}
 
 protected:
   HandEyeWorkbench& workbench_;

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: HandEyeCalibration contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VideoView.h"
+#include "WidgetTestSupport.h"
+#include "WizardDriver.h"
+#include "WizardPage.h"
+#include "WizardScreens.h"
+
+#include <QScreen>
+#include <QToolButton>
+
+#include <memory>
+
+using handeye::HandEyeWorkbench;
+using handeye::LiveView;
+using handeye::WizardStep;
+
+/// The page Ball in the simulated room: a person clicks with a mouse, and takes time for it.
+class WizardBallTest : public QObject
+{
+  Q_OBJECT
+
+private slots:
+  void init();
+  void cleanup();
+
+  void ball_StaysWhereItIs_UntilItIsClicked();
+  void click_OnTheBall_LearnsItsColour_AndUndoTakesItBack();
+  void click_OnTheBoard_IsSaidAndKeepsTheColour();
+  void click_MeansTheFrameThatWasShown();
+
+private:
+  HandEyeWorkbench& workbench() { return panel_->workbench(); }
+  QPointF ball_Image();
+  void clickAt(const QPointF& point_Image);
+  void photograph(const QString& name);
+  QString color() { return driver_->onPage<QLabel>("colorLabel")->text(); }
+
+  std::unique_ptr<HandEyeCalibrationPanel> panel_;
+  std::unique_ptr<WizardDriver> driver_;
+};
+
+namespace
+{
+
+/// On the wooden board behind the ball.
+const QPointF OnTheBoard(150, 110);
+
+bool hasBall(const std::shared_ptr<const LiveView>& view)
+{
+  return view && view->ball && view->ball->isFound();
+}
+
+}  // namespace
+
+void WizardBallTest::init()
+{
+  panel_ = std::make_unique<HandEyeCalibrationPanel>(nullptr, nullptr);
+  driver_ = std::make_unique<WizardDriver>(*panel_);
+  printRefusals(*panel_);
+  testing_widgets::show(*panel_, QSize(1280, 800));
+  driver_->click(driver_->onPage("connectButton"));
+  QTRY_VERIFY_WITH_TIMEOUT(driver_->canGoNext(), PatienceMs);
+  panel_->goTo(WizardStep::Ball);
+  QTRY_VERIFY_WITH_TIMEOUT(driver_->canGoNext() && hasBall(workbench().live().newest()), PatienceMs);
+  QTest::qWait(300);
+}
+
+void WizardBallTest::cleanup()
+{
+  driver_.reset();
+  panel_.reset();
+}
+
+/// Where it is seen, and how large.
+QPointF WizardBallTest::ball_Image()
+{
+  const Eigen::Vector2d ball_Image = workbench().live().newest()->ball->ball_Image;
+  return { ball_Image.x(), ball_Image.y() };
+}
+
+void WizardBallTest::clickAt(const QPointF& point_Image)
+{
+  handeye::VideoView& view = panel_->videoView();
+  QTest::mouseClick(view.findChild<QVTKOpenGLNativeWidget*>(), Qt::LeftButton, {}, view.imageToWidget(point_Image)->toPoint());
+}
+
+void WizardBallTest::photograph(const QString& name)
+{
+  QTest::qWait(400);
+  const QString file = QStringLiteral("%1/%2.png").arg(screenshotFolder(), name);
+  QVERIFY2(panel_->screen()->grabWindow(panel_->winId()).save(file), qPrintable(file));
+  QVERIFY2(faultsOf(*panel_).isEmpty(), qPrintable(faultsOf(*panel_).join(QLatin1Char('\n'))));
+}
+
+void WizardBallTest::ball_StaysWhereItIs_UntilItIsClicked()
+{
+  QTRY_VERIFY_WITH_TIMEOUT(hasBall(workbench().live().newest()), PatienceMs);
+  const QPointF before = ball_Image();
+  const double radiusPx = workbench().live().newest()->ball->radiusPx;
+  QVERIFY(radiusPx > 20);
+  for (int i = 0; i < 40; ++i)
+  {
+    QTest::qWait(200);
+    QTRY_VERIFY_WITH_TIMEOUT(hasBall(workbench().live().newest()), PatienceMs);
+    const QPointF moved = ball_Image() - before;
+    QVERIFY2(std::hypot(moved.x(), moved.y()) < 0.4 * radiusPx, qPrintable(QString::number(std::hypot(moved.x(), moved.y()))));
+  }
+}
+
+void WizardBallTest::click_OnTheBall_LearnsItsColour_AndUndoTakesItBack()
+{
+  QCOMPARE(color(), QStringLiteral("any saturated red"));
+  QVERIFY(!driver_->onPage<QToolButton>("undoButton")->isEnabled());
+  clickAt(ball_Image() + QPointF(6, 5));
+  QTRY_VERIFY_WITH_TIMEOUT(workbench().ball().isColorLearnt, PatienceMs);
+  QVERIFY2(color().contains(QStringLiteral("learnt")), qPrintable(color()));
+  QVERIFY(driver_->canGoNext() || !workbench().ball().wasSeen);
+  QTRY_VERIFY_WITH_TIMEOUT(driver_->canGoNext(), PatienceMs);
+  photograph(QStringLiteral("ball-learnt"));
+  driver_->click(driver_->onPage<QToolButton>("undoButton"));
+  QCOMPARE(color(), QStringLiteral("any saturated red"));
+  QVERIFY(!workbench().ball().isColorLearnt && !driver_->onPage<QToolButton>("undoButton")->isEnabled());
+}
+
+void WizardBallTest::click_OnTheBoard_IsSaidAndKeepsTheColour()
+{
+  clickAt(ball_Image());
+  QTRY_VERIFY_WITH_TIMEOUT(workbench().ball().isColorLearnt, PatienceMs);
+  const QString before = color();
+  clickAt(OnTheBoard);
+  QTRY_VERIFY_WITH_TIMEOUT(driver_->message().contains(QStringLiteral("There is no ball at the place clicked")), PatienceMs);
+  QVERIFY2(driver_->message().contains(before), qPrintable(driver_->message()));
+  QCOMPARE(color(), before);
+  QTRY_VERIFY_WITH_TIMEOUT(hasBall(workbench().live().newest()) && driver_->canGoNext(), PatienceMs);
+  photograph(QStringLiteral("ball-refused"));
+  // What was refused is forgotten with a click that hits.
+  clickAt(ball_Image());
+  QTRY_VERIFY_WITH_TIMEOUT(!driver_->message().contains(QStringLiteral("no ball at the place")), PatienceMs);
+}
+
+/// A ball that was there when the click was made, and is elsewhere by now.
+void WizardBallTest::click_MeansTheFrameThatWasShown()
+{
+  workbench().devices().playRoom(handeye::RoomScene::Free);
+  QTest::qWait(800);
+  QTRY_VERIFY_WITH_TIMEOUT(hasBall(workbench().live().newest()), PatienceMs);
+  const std::shared_ptr<const LiveView> shown = workbench().live().newest();
+  const QPointF place = ball_Image();
+  const double radiusPx = shown->ball->radiusPx;
+  const auto hasMoved = [&]
+  {
+    const QPointF moved = hasBall(workbench().live().newest()) ? ball_Image() - place : QPointF();
+    return std::hypot(moved.x(), moved.y()) > 2.5 * radiusPx;
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(hasMoved(), PatienceMs);
+  panel_->page(WizardStep::Ball)->clickInVideo(shown, place);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench().ball().isColorLearnt, PatienceMs);
+  QVERIFY2(!driver_->message().contains(QStringLiteral("no ball")), qPrintable(driver_->message()));
+}
+
+HANDEYE_WIDGET_TEST_MAIN(WizardBallTest)
+
+#include "WizardBallTest.moc"
