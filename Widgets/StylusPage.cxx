@@ -30,7 +30,7 @@ StylusPage::StylusPage(HandEyeWorkbench& workbench, QWidget* parent)
   ui_->shaftLabel->setMinimumHeight(2 * ui_->shaftLabel->fontMetrics().lineSpacing());
   ui_->shaftLabel->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   // With the shaft below it, all of the page fits into 800 px.
-  constexpr int MostDomePx = 285;
+  constexpr int MostDomePx = 250;
   ui_->dome->setMaximumHeight(MostDomePx);
   connectPivot();
   connectSpin();

@@ -4,10 +4,13 @@
 #include "WidgetTestSupport.h"
 #include "WizardDriver.h"
 #include "WizardPage.h"
+#include "WizardScreens.h"
 #include "WizardStepBar.h"
 #include "vtkSlicerHandEyeCalibrationLogic.h"
 
 #include <QCheckBox>
+#include <QScreen>
+#include <QSlider>
 #include <vtkNew.h>
 
 using handeye::HandEyeWorkbench;
@@ -144,6 +147,15 @@ void WizardRunTest::simulatedRun_CalibrationIsTheRoomsTruth()
   const Eigen::Isometry3d registrationError = *workbench.modelToPhantom() * phantomToModel;
   QVERIFY(registrationError.translation().norm() < 2);
   QVERIFY(Eigen::AngleAxisd(registrationError.linear()).angle() < 2 / 57.2958);
+  // The model over the phantom that it is of: to be looked at.
+  QTest::qWait(1500);
+  for (const int opacityPercent : { 60, 0 })
+  {
+    driver.onPage<QSlider>("opacitySlider")->setValue(opacityPercent);
+    QTest::qWait(500);
+    const QString file = QStringLiteral("%1/overlay-room-%2.png").arg(screenshotFolder()).arg(opacityPercent);
+    QVERIFY2(panel.screen()->grabWindow(panel.winId()).save(file), qPrintable(file));
+  }
   driver.click(driver.find("nextButton"));
   QCOMPARE(panel.currentStep(), WizardStep::Finish);
   QTest::qWait(300);
