@@ -69,7 +69,7 @@ void FinishPage::refresh()
   ui_->sessionLabel->setText(folder.isEmpty()
       ? tr("No session is open.")
       : tr("Everything is stored in <a href=\"%1\" style=\"color:%3\">%2</a>; nothing needs to be saved.")
-          .arg(QUrl::fromLocalFile(folder).toString(), folder.toHtmlEscaped(), palette().color(QPalette::Link).name()));
+          .arg(QUrl::fromLocalFile(folder).toString(), folder.toHtmlEscaped(), linkColor(palette()).name()));
   QStringList lines;
   for (const WizardStep step : { WizardStep::Stylus, WizardStep::Capture, WizardStep::Validation, WizardStep::Overlay })
   {
@@ -79,7 +79,7 @@ void FinishPage::refresh()
       QT_TR_NOOP("Phantom") };
     const Level level = problem.isEmpty() ? workbench_.levelOf(step) : Level::Info;
     lines << QStringLiteral("<tr><td>%1: </td><td style=\"color:%3\">%2</td></tr>")
-               .arg(tr(names[int(step)]), (problem.isEmpty() ? verdict : problem).toHtmlEscaped(),
+               .arg(tr(names[int(step)]), asSentence(problem.isEmpty() ? verdict : problem).toHtmlEscaped(),
                  levelColor(level, palette()).name());
   }
   ui_->summaryLabel->setText(QStringLiteral("<table cellspacing='4'>") + lines.join(QString()) + QStringLiteral("</table>"));
