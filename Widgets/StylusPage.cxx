@@ -69,7 +69,7 @@ void StylusPage::showProgress()
   ui_->errorLabel->setText(error);
   ui_->dome->setErrorText(isKnown ? tr("tip error %1").arg(withUnit(state.predictedTipErrorMm, 2, tr("mm"))) : QString(),
     state.isEnough ? Level::Good : Level::Info);
-  ui_->posesLabel->setText(tr("%1 of %2 kept, %3 hidden, %4 disagree")
+  ui_->posesLabel->setText(tr("%1 of %2 kept; %3 not seen by the tracker, %4 disagree with the rest")
                              .arg(state.counts.kept)
                              .arg(state.counts.total())
                              .arg(state.counts.invalid)
@@ -94,7 +94,7 @@ void StylusPage::refresh()
   ui_->startButton->setText(isCollecting || workbench_.stylus() ? tr("&Start again") : tr("&Start pivoting"));
   ui_->finishButton->setEnabled(isCollecting);
   const std::optional<HandEyeWorkbench::Stylus>& stylus = workbench_.stylus();
-  ui_->tipLabel->setText(stylus ? tr("Tip: %1, %2, %3 mm in the marker's frame")
+  ui_->tipLabel->setText(stylus ? tr("Tip at %1, %2, %3 mm from the origin of the stylus' marker")
                                     .arg(stylus->tip_Stylus.x(), 0, 'f', 2)
                                     .arg(stylus->tip_Stylus.y(), 0, 'f', 2)
                                     .arg(stylus->tip_Stylus.z(), 0, 'f', 2)

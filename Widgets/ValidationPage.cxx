@@ -3,6 +3,7 @@
 #include "ValidationPage.h"
 
 #include "ErrorDistancePlot.h"
+#include "Look.h"
 #include "SampleRows.h"
 #include "StatisticsTable.h"
 #include "ui_ValidationPage.h"
@@ -54,8 +55,12 @@ ValidationPage::ValidationPage(HandEyeWorkbench& workbench, QWidget* parent)
       }
     });
   connect(ui_->againButton, &QPushButton::clicked, &capture, &CaptureTask::evaluateAgain);
-  connect(&capture, &CaptureTask::hintChanged, this, [this] { ui_->hintLabel->setText(workbench_.validationCapture().hint()); });
-  connect(&capture, &CaptureTask::accepted, this, [this](int id) { ui_->hintLabel->setText(tr("Sample %1 is stored.").arg(id)); });
+  connect(&capture, &CaptureTask::hintChanged, this,
+    [this] { ui_->hintLabel->setText(asSentence(workbench_.validationCapture().hint())); });
+  connect(&capture, &CaptureTask::accepted, this,
+    [this](int id) { ui_->hintLabel->setText(tr("Sample %1 is stored.").arg(sampleNumber(id))); });
+  connect(&workbench_.devices(), &DeviceHub::connectionChanged, ui_->hintLabel, &QLabel::clear);
+  connect(&workbench_, &HandEyeWorkbench::sessionOpened, ui_->hintLabel, &QLabel::clear);
   connect(&workbench_, &HandEyeWorkbench::validationChanged, this, &ValidationPage::showValidation);
 }
 
@@ -88,7 +93,8 @@ void ValidationPage::showValidation()
   ui_->statistics->setSeries(series);
   ui_->table->setRows(validationRows(workbench_.validationCapture().samples(), validation));
   // A verdict that opens Next stands beside it.
-  const QString verdict = validation ? QString::fromStdString(validation->message) : tr("No placements to test on yet.");
+  const QString verdict =
+    validation ? asSentence(QString::fromStdString(validation->message)) : tr("No placements to test on yet.");
   ui_->verdictLabel->setText(workbench_.problemOf(WizardStep::Validation).isEmpty() ? QString() : verdict);
   ui_->verdictLabel->setVisible(!ui_->verdictLabel->text().isEmpty());
 }
