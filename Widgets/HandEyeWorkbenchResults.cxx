@@ -165,7 +165,8 @@ void HandEyeWorkbench::loadCalibration(const QString& path)
           store("calibration", document);
           ball_.radiusMm = stored.ballRadiusMm;
           storeBall();
-          stylus_ = Stylus{ stored.tip_Stylus, Eigen::Matrix3d::Zero(), 0, tr("of the calibration %1").arg(path), {} };
+          stylus_ =
+            Stylus{ stored.tip_Stylus, Eigen::Matrix3d::Zero(), 0, tr("The tip is that of the calibration %1").arg(path), {} };
           emit stylusChanged();
           emit ballChanged();
           setCamera({ stored.camera, stored.markerToCamera, "calibration.json", {} }, path);
@@ -274,6 +275,7 @@ void HandEyeWorkbench::storeModel()
 void HandEyeWorkbench::setModelToPhantom(const std::optional<Eigen::Isometry3d>& modelToPhantom, const QString& madeForModel)
 {
   modelToPhantom_ = modelToPhantom;
+  isTouchingAnew_ = false;
   registeredModelPath_ = madeForModel.isEmpty() ? modelPath_ : madeForModel;
   if (!modelPath_.isEmpty())
   {
@@ -309,6 +311,15 @@ void HandEyeWorkbench::registerLandmarks(
           setModelToPhantom(result.isUsable() ? std::optional(result.modelToPhantom) : std::nullopt, touchedModel);
         });
     });
+}
+
+void HandEyeWorkbench::setTouchingAnew(bool isAnew)
+{
+  if (isTouchingAnew_ != isAnew)
+  {
+    isTouchingAnew_ = isAnew;
+    emit stateChanged();
+  }
 }
 
 void HandEyeWorkbench::loadRegistration(const QString& path, const QString& madeForModel)
