@@ -9,6 +9,8 @@
 #include <QPainter>
 #include <QSignalBlocker>
 
+#include <cmath>
+
 namespace handeye
 {
 
@@ -27,14 +29,52 @@ BallPage::BallPage(HandEyeWorkbench& workbench, QWidget* parent)
   connect(ui_->undoButton, &QToolButton::clicked, &workbench_, &HandEyeWorkbench::takeFormerBallColor);
   connect(ui_->stages, &StagesView::imageClicked, this,
     [this](const QPointF& point_Image) { workbench_.learnBallColor(inStages_, point_Image); });
-  connect(ui_->measureButton, &QPushButton::clicked, &workbench_, &HandEyeWorkbench::measureLatency);
-  connect(&workbench_.latency(), &LatencyTask::progressed, this,
-    [this](double share) { ui_->latencyProgress->setValue(int(100 * share)); });
-  connect(&workbench_, &HandEyeWorkbench::latencyChanged, ui_->latencyLabel, &QLabel::setText);
+  connectLatency();
   connect(&workbench_.live(), &LivePipeline::shown, this, &BallPage::showFrame);
 }
 
 BallPage::~BallPage() = default;
+
+void BallPage::connectLatency()
+{
+  ui_->latencyHowLabel->setText(ui_->latencyHowLabel->text().arg(LatencyTask::DefaultSec, 0, 'f', 0));
+  connect(ui_->measureButton, &QPushButton::clicked, &workbench_, &HandEyeWorkbench::measureLatency);
+  connect(ui_->latencyCancelButton, &QPushButton::clicked, &workbench_.latency(), &LatencyTask::cancel);
+  connect(&workbench_.latency(), &LatencyTask::runningChanged, this, [this] { showLatencyProgress(0); });
+  connect(&workbench_.latency(), &LatencyTask::progressed, this, &BallPage::showLatencyProgress);
+  connect(&workbench_, &HandEyeWorkbench::latencyChanged, this,
+    [this](const QString& words)
+    {
+      measured_ = words;
+      measuredSec_ = workbench_.devices().setup().latencySec;
+      refresh();
+    });
+}
+
+void BallPage::showLatencyProgress(double share)
+{
+  const double leftSec = (1 - share) * LatencyTask::DefaultSec;
+  ui_->latencyProgress->setValue(int(100 * share));
+  // A person looks at the ball and the video meanwhile: what to do stands there.
+  ui_->latencyProgress->setFormat(tr("swing the ball: %1 s left").arg(std::ceil(leftSec), 0, 'f', 0));
+}
+
+/// What is in use, and how well it is known.
+void BallPage::showLatency()
+{
+  const double latencySec = workbench_.devices().setup().latencySec;
+  ui_->latencyLabel->setText(latencySec == measuredSec_ && !measured_.isEmpty() ? measured_
+      : latencySec != 0
+      ? tr("%1 is in use, measured before or typed on the page Devices.").arg(withUnit(1000 * latencySec, 1, tr("ms")))
+      : tr("Not measured: video and tracker are taken to be in time. That is right for a ball that is held still; a moving camera "
+           "needs "
+           "it."));
+}
+
+void BallPage::leave()
+{
+  workbench_.latency().cancel();
+}
 
 void BallPage::clickInVideo(const std::shared_ptr<const LiveView>& shown, const QPointF& point_Image)
 {
@@ -44,8 +84,13 @@ void BallPage::clickInVideo(const std::shared_ptr<const LiveView>& shown, const 
 void BallPage::showFrame()
 {
   const std::shared_ptr<const LiveView> view = workbench_.live().newest();
-  if (!isVisible() || !view)
+  if (!isVisible())
   {
+    return;
+  }
+  if (!view || (view->problem.isEmpty() && !view->ball))
+  {
+    ui_->foundLabel->setText(QString(QChar(0x2013)));  // what was said of another picture, or of another lens, is over
     return;
   }
   if (view->stages)
@@ -55,7 +100,7 @@ void BallPage::showFrame()
   }
   if (!view->problem.isEmpty())
   {
-    ui_->foundLabel->setText(view->problem);
+    ui_->foundLabel->setText(asSentence(view->problem));
   }
   else if (view->ball)
   {
@@ -63,7 +108,7 @@ void BallPage::showFrame()
                                                        .arg(2 * view->ball->radiusPx, 0, 'f', 1)
                                                        .arg(view->ball->distanceMm, 0, 'f', 0)
                                                        .arg(100 * view->ball->visibleShare, 0, 'f', 0)
-                                                   : QString::fromStdString(view->ball->message));
+                                                   : asSentence(QString::fromStdString(view->ball->message)));
   }
 }
 
@@ -89,7 +134,10 @@ void BallPage::refresh()
       : tr("Back to the colour before the last click"));
   const bool isMeasuring = workbench_.latency().isRunning();
   ui_->measureButton->setEnabled(!isMeasuring && workbench_.camera() && workbench_.stylus() && workbench_.devices().isConnected());
+  ui_->measureButton->setVisible(!isMeasuring);
   ui_->latencyProgress->setVisible(isMeasuring);
+  ui_->latencyCancelButton->setVisible(isMeasuring);
+  showLatency();
 }
 
 }  // namespace handeye

@@ -24,13 +24,19 @@ public:
   ~BallPage() override;
 
   void refresh() override;
+  void leave() override;
   void clickInVideo(const std::shared_ptr<const LiveView>& shown, const QPointF& point_Image) override;
 
 private:
+  void connectLatency();
   void showFrame();
+  void showLatency();
+  void showLatencyProgress(double share);
 
   std::unique_ptr<Ui::BallPage> ui_;
   std::shared_ptr<const LiveView> inStages_;  ///< the frame whose pictures are shown
+  QString measured_;        ///< what was said of the last measurement...
+  double measuredSec_ = 0;  ///< ...and the latency that it was of
 };
 
 }  // namespace handeye

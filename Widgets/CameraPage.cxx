@@ -19,15 +19,7 @@ CameraPage::CameraPage(HandEyeWorkbench& workbench, QWidget* parent)
   ui_->lensCalibrationPlaceLayout->setContentsMargins(0, 0, 0, 0);
   ui_->lensCalibrationPlaceLayout->addWidget(lensPanel_);
   connect(ui_->loadButton, &QPushButton::clicked, this, &CameraPage::load);
-  connect(ui_->roomCameraButton, &QPushButton::clicked, this,
-    [this]
-    {
-      if (const simulation::RoomOptions* room = workbench_.devices().room())
-      {
-        const io::CameraFile file{ room->camera, {}, "simulated", {} };
-        workbench_.setCamera(file, tr("the simulated room's own camera"));
-      }
-    });
+  connect(ui_->roomCameraButton, &QPushButton::clicked, &workbench_, &HandEyeWorkbench::takeRoomCamera);
 }
 
 CameraPage::~CameraPage() = default;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CapturePage.h"
 
+#include "FoldBehind.h"
 #include "Look.h"
 #include "SampleRows.h"
 #include "ui_CapturePage.h"
@@ -18,6 +19,8 @@ CapturePage::CapturePage(HandEyeWorkbench& workbench, QWidget* parent)
   , ui_(std::make_unique<Ui::CapturePage>())
 {
   ui_->setupUi(this);
+  foldBehind(*ui_->moreButton, *ui_->limitsBox);
+  ui_->limitsBox->layout()->setContentsMargins(0, 0, 0, 0);
   CaptureTask& capture = workbench_.capture();
   ui_->handsFreeBox->setChecked(true);
   connect(ui_->handsFreeBox, &QCheckBox::toggled, &capture, &CaptureTask::setHandsFree);
@@ -53,11 +56,11 @@ CapturePage::CapturePage(HandEyeWorkbench& workbench, QWidget* parent)
     [this] { workbench_.setWorkingDepths(ui_->nearestSpin->value(), ui_->furthestSpin->value()); });
   connect(ui_->enoughSpin, qOverload<double>(&QDoubleSpinBox::valueChanged), &workbench_, &HandEyeWorkbench::setEnoughPx);
   connect(&capture, &CaptureTask::samplesChanged, this, &CapturePage::showSamples);
-  connect(&capture, &CaptureTask::hintChanged, this, [this] { ui_->hintLabel->setText(workbench_.capture().hint()); });
+  connect(&capture, &CaptureTask::hintChanged, this, [this] { ui_->hintLabel->setText(asSentence(workbench_.capture().hint())); });
   connect(&capture, &CaptureTask::accepted, this,
     [this](int id)
     {
-      ui_->hintLabel->setText(tr("Sample %1 is stored.").arg(id));
+      ui_->hintLabel->setText(tr("Sample %1 is stored.").arg(sampleNumber(id)));
       if (ui_->soundBox->isChecked())
       {
         QApplication::beep();
@@ -92,6 +95,8 @@ CapturePage::CapturePage(HandEyeWorkbench& workbench, QWidget* parent)
           ? tr("This session has samples already: turn Hands-free on to add others by itself.")
           : QString());
     });
+  // What was said of the last picture is over when there are none.
+  connect(&workbench_.devices(), &DeviceHub::connectionChanged, ui_->hintLabel, &QLabel::clear);
 }
 
 CapturePage::~CapturePage() = default;
@@ -153,12 +158,12 @@ void CapturePage::showCalibration()
   ui_->coverage->setNextPlace(next);
   const bool isUsable = calibration && calibration->isUsable();
   // The verdict itself stands beside Next.
-  const QString limit = withUnit(workbench_.enoughPx(), 1, tr("px"));
+  const QString limit = withUnit(workbench_.enoughPx(), 2, tr("px"));
   const QString worst = isUsable ? withUnit(calibration->calibration.predicted.maximumPx, 2, tr("px")) : QString();
   ui_->verdictLabel->setText(!calibration ? tr("No samples yet.")
       : !isUsable                         ? tr("Not enough yet.")
-      : workbench_.isEnough()             ? tr("<b>Enough:</b> %1 at worst, the limit is %2.").arg(worst, limit)
-                                          : tr("Not enough yet: %1 at worst, the limit is %2.").arg(worst, limit));
+      : workbench_.isEnough()             ? tr("<b>Enough:</b> %1 at worst, limit %2").arg(worst, limit)
+                                          : tr("Not enough: %1 at worst, limit %2").arg(worst, limit));
   const bool isNews = workbench_.isEnough() && !isEnoughSaid_;
   isEnoughSaid_ = isUsable && workbench_.isEnough();
   if (isNews && ui_->soundBox->isChecked())

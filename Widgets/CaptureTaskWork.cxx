@@ -59,6 +59,18 @@ void CaptureTask::Work::renewLive()
   }
 }
 
+QString CaptureTask::Work::inWords(const std::string& message) const
+{
+  QString text = QString::fromStdString(message);
+  for (const auto& [name, words] :
+    { std::pair(inputs->tools.stylusToTracker, tr("stylus")), std::pair(inputs->tools.markerToTracker, tr("camera's marker")) })
+  {
+    const QString prefix = QString::fromStdString(name) + QLatin1Char(':');
+    text = text.startsWith(prefix) ? words + text.mid(prefix.size() - 1) : text;
+  }
+  return text;
+}
+
 CaptureSample CaptureTask::Work::evaluate(int id) const
 {
   const io::SessionSample& stored = session->samples().at(id);
@@ -141,11 +153,15 @@ void CaptureTask::onFrame(const devices::PairedFrame& frame)
     {
       tell([sample = work.evaluate(step.sampleId)](CaptureTask& task) { task.addSample(sample, true); });
     }
+    // That a sample is stored the page says, which counts as a person does.
     if (step.status != work.lastStatus || step.message != work.lastMessage)
     {
       work.lastStatus = step.status;
       work.lastMessage = step.message;
-      tell([message = QString::fromStdString(step.message)](CaptureTask& task) { task.setHint(message); });
+      if (step.status != Status::Accepted)
+      {
+        tell([message = work.inWords(step.message)](CaptureTask& task) { task.setHint(message); });
+      }
     }
   }
   catch (const std::exception& error)
@@ -170,8 +186,7 @@ void CaptureTask::take(Work& work, const devices::PairedFrame& frame)
     if (pose == frame.poses.end() || !pose->second.isUsable())
     {
       const std::string reason = pose == frame.poses.end() ? "no pose was received" : pose->second.message;
-      tell([text = QString::fromStdString(name + ": " + reason)](CaptureTask& task)
-        { emit task.failed(tr("Not taken: %1").arg(text)); });
+      tell([text = work.inWords(name + ": " + reason)](CaptureTask& task) { emit task.failed(tr("Not taken: %1").arg(text)); });
       return;
     }
   }

@@ -28,6 +28,8 @@ struct CaptureTask::Work
 
   /// The places that are taken are looked at anew.
   void renewLive();
+  /// A message with the tools' words in place of the names of their streams.
+  QString inWords(const std::string& message) const;
   /// A stored sample with the inputs as they are.
   CaptureSample evaluate(int id) const;
 };

@@ -177,6 +177,10 @@ void ComparisonPage::showProgress(const QString& what, int done, int total)
 
 void ComparisonPage::refresh()
 {
+  if (ui_->reportLabel->isVisibleTo(this) && !linkedReport_.isEmpty())
+  {
+    linkReport(linkedReport_);  // with the links' colour of now
+  }
   const ComparisonTask& task = workbench_.comparison();
   const bool isIdle = !task.isWorking(), isReady = workbench_.missingFor(step()).isEmpty();
   const bool hasBoard = board().has_value() || boardRecording_.isEmpty();
@@ -279,9 +283,11 @@ void ComparisonPage::showRepeatability(const ComparisonResult& result)
 
 void ComparisonPage::linkReport(const QString& path)
 {
+  linkedReport_ = path;
   const QUrl report = QUrl::fromLocalFile(path), folder = QUrl::fromLocalFile(QFileInfo(path).path());
-  ui_->reportLabel->setText(tr("<a href=\"%1\">report.html</a> and report.pdf are in <a href=\"%2\">%3</a>.")
-                              .arg(report.toString(), folder.toString(), QFileInfo(path).path().toHtmlEscaped()));
+  ui_->reportLabel->setText(
+    tr("<a href=\"%1\" style=\"color:%4\">report.html</a> and report.pdf are in <a href=\"%2\" style=\"color:%4\">%3</a>.")
+      .arg(report.toString(), folder.toString(), QFileInfo(path).path().toHtmlEscaped(), linkColor(palette()).name()));
   ui_->reportLabel->show();
 }
 

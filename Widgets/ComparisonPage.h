@@ -45,7 +45,7 @@ private:
   void showReport(const QString& path);
 
   std::unique_ptr<Ui::ComparisonPage> ui_;
-  QString boardRecording_;
+  QString boardRecording_, linkedReport_;
   QStringList otherCaptures_;
 };
 

@@ -116,7 +116,8 @@ QRectF CoverageView::fieldRectangle(const Field& field) const
   const double line = this->fontMetrics().height();
   const double top = 2 * line + 6;
   const QSizeF shape = imageSize_.isEmpty() ? QSizeF(4, 3) : QSizeF(imageSize_);
-  const QSizeF room((this->width() - (Bands - 1) * Gap - 2) / Bands, this->height() - top - 1.5 * line - 8);
+  const double below = this->hasWordsBelow() ? 1.5 * line + 8 : 2;
+  const QSizeF room((this->width() - (Bands - 1) * Gap - 2) / Bands, this->height() - top - below);
   const QSizeF grid = shape.scaled(room.expandedTo({ 8, 8 }), Qt::KeepAspectRatio);
   const double left = (this->width() - Bands * grid.width() - (Bands - 1) * Gap) / 2 + field.band * (grid.width() + Gap);
   const QSizeF cell(grid.width() / Columns, grid.height() / Rows);
@@ -167,7 +168,13 @@ QSize CoverageView::sizeHint() const
 
 QSize CoverageView::minimumSizeHint() const
 {
-  return { 240, 120 };
+  return { 240, 104 };
+}
+
+/// In a low place the fields are worth more than their count, which the tooltip and the accessible description have.
+bool CoverageView::hasWordsBelow() const
+{
+  return this->height() >= 8 * this->fontMetrics().height();
 }
 
 void CoverageView::paintEvent(QPaintEvent*)
@@ -177,6 +184,10 @@ void CoverageView::paintEvent(QPaintEvent*)
   for (int band = 0; band < Bands; ++band)
   {
     this->paintBand(painter, band);
+  }
+  if (!this->hasWordsBelow())
+  {
+    return;
   }
   const double line = this->fontMetrics().height();
   const QRectF below(0, this->height() - 1.4 * line, this->width(), 1.4 * line);
@@ -200,6 +211,9 @@ void CoverageView::paintBand(QPainter& painter, int band) const
   painter.drawText(title.translated(0, line), Qt::AlignCenter, range);
   const QColor ground = this->palette().color(QPalette::Base);
   const QColor full = levelColor(Level::Good, this->palette());
+  // Of the text, not of a role for shadows: those of dark palettes are darker than their ground.
+  QColor lines = this->palette().color(QPalette::Text);
+  lines.setAlphaF(0.35);
   for (int row = 0; row < Rows; ++row)
   {
     for (int column = 0; column < Columns; ++column)
@@ -215,7 +229,7 @@ void CoverageView::paintBand(QPainter& painter, int band) const
         painter.fillRect(place, fill);
       }
       painter.setBrush(Qt::NoBrush);
-      painter.setPen(QPen(this->palette().color(QPalette::Mid), 1));
+      painter.setPen(QPen(lines, 1));
       painter.drawRect(place);
       if (samples > 0)
       {

@@ -68,6 +68,7 @@ protected:
   bool event(QEvent* event) override;
 
 private:
+  bool hasWordsBelow() const;
   void paintBand(QPainter& painter, int band) const;
   void paintMarks(QPainter& painter, int band, const QRectF& grid) const;
   std::optional<Field> fieldAt(const QPointF& point_Widget) const;

@@ -305,16 +305,19 @@ QString DeviceHub::missing(bool needsVideo) const
   {
     return choice;
   }
-  for (const QString& name : { setup_.stylusToTracker, setup_.markerToTracker })
+  for (const auto& [name, what] :
+    { std::pair(setup_.stylusToTracker, tr("stylus")), std::pair(setup_.markerToTracker, tr("camera's marker")) })
   {
     if (stream(name).light == StreamList::Light::Lost)
     {
-      return tr("No poses named '%1' arrive. %2").arg(name, status_);
+      return tr("The %1 does not arrive: there is no stream '%2'. Choose its stream in the list, or check the source. %3")
+        .arg(what, name, status_)
+        .trimmed();
     }
   }
   if (needsVideo && (imageName().isEmpty() || stream(imageName()).light == StreamList::Light::Lost))
   {
-    return tr("No video arrives. %1").arg(status_);
+    return tr("No video arrives. %1").arg(status_).trimmed();
   }
   return {};
 }

@@ -163,7 +163,7 @@ QSize DirectionDome::sizeHint() const
 
 QSize DirectionDome::minimumSizeHint() const
 {
-  return { 160, 210 };
+  return { 160, 190 };
 }
 
 void DirectionDome::paintEvent(QPaintEvent*)

@@ -28,11 +28,14 @@ QString fromPath(const std::filesystem::path& path)
   return QString::fromStdString(path.string());
 }
 
+/// What stands for the colour of links, until it is shown.
+const QLatin1String LinkColor("{link}");
+
 QString listItem(const QString& path, const QString& what)
 {
   const QString link = QString::fromUtf8(QUrl::fromLocalFile(path).toEncoded());
-  return QStringLiteral("<p style=\"margin:2px 0\"><a href=\"%1\">%2</a> – %3</p>")
-    .arg(link, QFileInfo(path).fileName().toHtmlEscaped(), what.toHtmlEscaped());
+  return QStringLiteral("<p style=\"margin:2px 0\"><a href=\"%1\" style=\"color:%4\">%2</a> – %3</p>")
+    .arg(link, QFileInfo(path).fileName().toHtmlEscaped(), what.toHtmlEscaped(), LinkColor);
 }
 
 }  // namespace
@@ -49,6 +52,7 @@ public:
   void arrangeFormats();
   void updateButtons();
   void list(const QString& html);
+  void show(const QString& html);
   void showMessage(const QString& text, Level level);
   bool exportOne(const ExportFormat& format, const QDir& target, QStringList& problems, QMap<QString, QStringList>& warnings);
   bool hasCalibration() const { return !sources.calibration.empty(); }
@@ -122,7 +126,12 @@ void ExportPanel::Private::updateButtons()
 void ExportPanel::Private::list(const QString& html)
 {
   listed += html;
-  ui.writtenBrowser->append(html);
+  this->show(html);
+}
+
+void ExportPanel::Private::show(const QString& html)
+{
+  ui.writtenBrowser->append(QString(html).replace(LinkColor, linkColor(q.palette()).name()));
 }
 
 void ExportPanel::Private::showMessage(const QString& text, Level level)
@@ -214,11 +223,11 @@ void ExportPanel::changeEvent(QEvent* event)
   QWidget::changeEvent(event);
   if (event->type() == QEvent::PaletteChange && d->columns > 0)
   {
-    // Links keep the colour that they were written with.
+    // Links keep the colour that they were shown with.
     d->ui.writtenBrowser->clear();
     for (const QString& html : d->listed)
     {
-      d->ui.writtenBrowser->append(html);
+      d->show(html);
     }
     d->showMessage(d->message, d->messageLevel);
   }

@@ -90,7 +90,7 @@ void FinishPage::showReport(const QString& path)
 QString FinishPage::linkTo(const QString& path, const QString& words) const
 {
   return QStringLiteral("<a href=\"%1\" style=\"color:%3\">%2</a>")
-    .arg(QUrl::fromLocalFile(path).toString(), words.toHtmlEscaped(), palette().color(QPalette::Link).name());
+    .arg(QUrl::fromLocalFile(path).toString(), words.toHtmlEscaped(), linkColor(palette()).name());
 }
 
 void FinishPage::refresh()
@@ -109,7 +109,7 @@ void FinishPage::refresh()
       QT_TR_NOOP("Phantom") };
     const Level level = problem.isEmpty() ? workbench_.levelOf(step) : Level::Info;
     lines << QStringLiteral("<tr><td>%1: </td><td style=\"color:%3\">%2</td></tr>")
-               .arg(tr(names[int(step)]), (problem.isEmpty() ? verdict : problem).toHtmlEscaped(),
+               .arg(tr(names[int(step)]), asSentence(problem.isEmpty() ? verdict : problem).toHtmlEscaped(),
                  levelColor(level, palette()).name());
   }
   ui_->summaryLabel->setText(QStringLiteral("<table cellspacing='4'>") + lines.join(QString()) + QStringLiteral("</table>"));

@@ -191,6 +191,16 @@ void HandEyeCalibrationPanel::Private::connectRefusals()
   connect(bench, &HandEyeWorkbench::cameraChanged, &q, forgiving(WizardStep::Camera));
   connect(bench, &HandEyeWorkbench::stylusChanged, &q, forgiving(WizardStep::Stylus));
   connect(bench, &HandEyeWorkbench::ballChanged, &q, forgiving(WizardStep::Ball));
+  // What could not be taken with another lens, stylus or ball, or from other devices, may be possible now.
+  const auto forgiveTaking = [this]
+  {
+    forgive(WizardStep::Capture);
+    forgive(WizardStep::Validation);
+  };
+  connect(bench, &HandEyeWorkbench::cameraChanged, &q, forgiveTaking);
+  connect(bench, &HandEyeWorkbench::stylusChanged, &q, forgiveTaking);
+  connect(bench, &HandEyeWorkbench::ballChanged, &q, forgiveTaking);
+  connect(&bench->devices(), &handeye::DeviceHub::connectionChanged, &q, forgiveTaking);
   connect(bench, &HandEyeWorkbench::latencyChanged, &q, forgiving(WizardStep::Ball));
   connect(bench, &HandEyeWorkbench::modelChanged, &q, forgiving(WizardStep::Overlay));
   connect(bench, &HandEyeWorkbench::registrationChanged, &q,
@@ -199,6 +209,14 @@ void HandEyeCalibrationPanel::Private::connectRefusals()
       if (workbench->registrationOfModel())
       {
         forgive(WizardStep::Overlay);
+      }
+    });
+  connect(&bench->latency(), &handeye::LatencyTask::runningChanged, &q,
+    [this]
+    {
+      if (workbench->latency().isRunning())
+      {
+        forgive(WizardStep::Ball);
       }
     });
   connect(&workbench->comparison(), &handeye::ComparisonTask::changed, &q,
@@ -260,7 +278,7 @@ void HandEyeCalibrationPanel::Private::showMessage(const QString& text, handeye:
   QPalette palette = wizard->palette();
   palette.setColor(QPalette::WindowText, handeye::levelColor(level, wizard->palette()));
   ui.messageLabel->setPalette(palette);
-  ui.messageLabel->setText(text);
+  ui.messageLabel->setText(handeye::asSentence(text));
   ui.messageLabel->setVisible(!text.isEmpty());
 }
 
@@ -285,12 +303,13 @@ void HandEyeCalibrationPanel::Private::refresh()
   currentPage().refresh();
   const QString missing = workbench->missingFor(step), problem = workbench->problemOf(step);
   const bool isLast = step == WizardStep::Finish;
-  ui.missingLabel->setText(missing);
+  ui.missingLabel->setText(handeye::asSentence(missing));
   ui.missingLabel->setVisible(!missing.isEmpty());
   ui.nextButton->setVisible(!isLast);
   ui.nextButton->setEnabled(problem.isEmpty());
   ui.backButton->setEnabled(step != WizardStep::Devices);
-  ui.reasonLabel->setText(problem.isEmpty() || isLast ? QString() : HandEyeCalibrationPanel::tr("Next is closed: %1").arg(problem));
+  ui.reasonLabel->setText(
+    problem.isEmpty() || isLast ? QString() : HandEyeCalibrationPanel::tr("Next is closed: %1").arg(handeye::asSentence(problem)));
   ui.reasonLabel->setVisible(!ui.reasonLabel->text().isEmpty() && missing.isEmpty());
   if (const QString& refusal = refusals[std::size_t(step)]; !refusal.isEmpty())
   {

@@ -114,7 +114,7 @@ void HandEyeWorkbench::connectTasks()
       devices_->setLatency(std::round(1e4 * result.latencySec) / 1e4);
       storeDevices();
       updateInputs();
-      emit latencyChanged(QString::fromStdString(result.message));
+      emit latencyChanged(LatencyTask::words(result));
     });
   connect(latency_, &LatencyTask::refused, this, [this](const QString& message) { refuse(WizardStep::Ball, message); });
   connect(latency_, &LatencyTask::runningChanged, this,
@@ -216,10 +216,9 @@ bool HandEyeWorkbench::connectDevices(const DeviceSetup& setup)
     refuse(WizardStep::Devices, devices_->problem());
     return false;
   }
-  if (devices_->room() && !camera_)
+  if (!camera_)
   {
-    io::CameraFile file{ devices_->room()->camera, {}, "simulated", {} };
-    setCamera(file, tr("the simulated room's own camera"));
+    takeRoomCamera();
   }
   storeDevices();
   updateInputs();

@@ -134,6 +134,8 @@ public:
   // Camera, stylus, ball
   void loadCamera(const QString& path);
   void setCamera(const io::CameraFile& file, const QString& origin);
+  /// The simulated room knows the lens of its camera; without a room that is connected nothing happens.
+  void takeRoomCamera();
   /// The lens that was calibrated last becomes the camera, also as camera.yml (OpenCV) in the session's folder.
   void useCalibratedLens();
   const std::optional<Camera>& camera() const { return camera_; }
@@ -213,6 +215,9 @@ public:
   /// @param madeForModel the mesh that it belongs to; empty: the one that is loaded
   void loadRegistration(const QString& path, const QString& madeForModel = {});
   void saveRegistration(const QString& path);
+  /// Too few landmarks are touched for a registration: what is said of the last attempt is over, and the registration of before, if
+  /// there is one, stays in use until there is another.
+  void setTouchingAnew(bool isAnew);
   const std::optional<Eigen::Isometry3d>& modelToPhantom() const { return modelToPhantom_; }
   /// Another mesh was loaded after the phantom was registered: nothing is drawn with it until the person says that it lies in the
   /// same coordinates (keepRegistration()), or registers anew.
@@ -342,6 +347,7 @@ private:
   std::optional<Eigen::Isometry3d> modelToPhantom_;
   std::optional<LandmarkRegistrationResult> registration_;
   nlohmann::json storedLandmarks_;
+  bool isTouchingAnew_ = false;
 };
 
 }  // namespace handeye

@@ -64,6 +64,7 @@ void HandEyeWorkbench::setCamera(const io::CameraFile& file, const QString& orig
       calibration_->camera.distortionCoefficients() != file.camera.distortionCoefficients());
   camera_ = Camera{ file, origin };
   store("camera", cameraDocument(*camera_));
+  emit cameraChanged();
   if (isCalibrationLoaded_ && isOtherLens)
   {
     // Nothing can be calibrated anew: it came without samples.
@@ -73,9 +74,17 @@ void HandEyeWorkbench::setCamera(const io::CameraFile& file, const QString& orig
     emit calibrationChanged();
     refuse(WizardStep::Camera, tr("The calibration that was loaded is of another lens and is not used any more."));
   }
-  emit cameraChanged();
   emit happened(tr("camera: %1").arg(origin));
   updateInputs();
+}
+
+void HandEyeWorkbench::takeRoomCamera()
+{
+  if (const simulation::RoomOptions* room = devices_->room())
+  {
+    const io::CameraFile file{ room->camera, {}, "simulated", {} };
+    setCamera(file, tr("the simulated room's own camera"));
+  }
 }
 
 void HandEyeWorkbench::useCalibratedLens()

@@ -85,6 +85,7 @@ void HandEyeWorkbench::storeModel()
 void HandEyeWorkbench::setModelToPhantom(const std::optional<Eigen::Isometry3d>& modelToPhantom, const QString& madeForModel)
 {
   modelToPhantom_ = modelToPhantom;
+  isTouchingAnew_ = false;
   registeredModelPath_ = madeForModel.isEmpty() ? modelPath_ : madeForModel;
   if (!modelPath_.isEmpty())
   {
@@ -120,6 +121,15 @@ void HandEyeWorkbench::registerLandmarks(
           setModelToPhantom(result.isUsable() ? std::optional(result.modelToPhantom) : std::nullopt, touchedModel);
         });
     });
+}
+
+void HandEyeWorkbench::setTouchingAnew(bool isAnew)
+{
+  if (isTouchingAnew_ != isAnew)
+  {
+    isTouchingAnew_ = isAnew;
+    emit stateChanged();
+  }
 }
 
 void HandEyeWorkbench::loadRegistration(const QString& path, const QString& madeForModel)

@@ -125,7 +125,8 @@ void HandEyeWorkbench::loadCalibration(const QString& path)
           store("calibration", document);
           ball_.radiusMm = stored.ballRadiusMm;
           storeBall();
-          stylus_ = Stylus{ stored.tip_Stylus, Eigen::Matrix3d::Zero(), 0, tr("of the calibration %1").arg(path), {} };
+          stylus_ =
+            Stylus{ stored.tip_Stylus, Eigen::Matrix3d::Zero(), 0, tr("The tip is that of the calibration %1").arg(path), {} };
           emit stylusChanged();
           emit ballChanged();
           setCamera({ stored.camera, stored.markerToCamera, "calibration.json", {} }, path);

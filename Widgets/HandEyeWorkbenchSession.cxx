@@ -97,6 +97,7 @@ void HandEyeWorkbench::openSession(const QString& folder)
   modelToPhantom_.reset();
   registration_.reset();
   storedLandmarks_ = {};
+  isTouchingAnew_ = false;
   comparison_->clear();
   storedComparison_.clear();
   sessionProblems_.clear();
@@ -110,6 +111,7 @@ void HandEyeWorkbench::openSession(const QString& folder)
   emit registrationChanged();
   capture_->setInputs({});
   validationCapture_->setInputs({});
+  updateLive();  // the ball is not looked for with the lens of before
   QDir().mkpath(folder);
   capture_->openFolder(folder);
   validationCapture_->openFolder(folder + QStringLiteral("/validation"));
@@ -277,6 +279,10 @@ void HandEyeWorkbench::restoreFiles(const std::map<std::string, json>& documents
             updateInputs();
           });
       });
+  }
+  else
+  {
+    takeRoomCamera();  // the room that is connected shows its pictures in this session, too
   }
   if (const json stylus = entry(documents, "stylus"); stylus.is_object())
   {

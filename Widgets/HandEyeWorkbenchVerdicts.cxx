@@ -87,7 +87,7 @@ QString HandEyeWorkbench::problemOf(WizardStep step) const
       }
       return calibration_ && calibration_->isUsable() ? QString()
         : calibration_                                ? QString::fromStdString(calibration_->decisive().message)
-                                                      : tr("Collect placements of the ball.");
+                                                      : tr("There are no samples yet.");
     case WizardStep::Validation:
       if (validationCapture_->isBroken())
       {
@@ -97,11 +97,11 @@ QString HandEyeWorkbench::problemOf(WizardStep step) const
         ? QString()
         : tr("Hold the ball at a few other places, so that the calibration is tested on them.");
     case WizardStep::Overlay:
-      return !model_.mesh               ? tr("Load a model.")
-        : isRegisteredForAnotherModel() ? tr("Register the phantom for this mesh, or keep the registration there is.")
-        : modelToPhantom_               ? QString()
-        : registration_                 ? QString::fromStdString(registration_->message)
-                                        : tr("Register the phantom: touch its landmarks, or load a registration.");
+      return !model_.mesh                   ? tr("Load a model.")
+        : isRegisteredForAnotherModel()     ? tr("Register the phantom for this mesh, or keep the registration there is.")
+        : modelToPhantom_                   ? QString()
+        : registration_ && !isTouchingAnew_ ? QString::fromStdString(registration_->message)
+                                            : tr("The phantom is not registered.");
     case WizardStep::Comparison:
     case WizardStep::Finish:
       return {};
@@ -123,7 +123,7 @@ Level HandEyeWorkbench::levelOf(WizardStep step) const
     const Level level = errorLevel(validation_->projectionErrorPx.mean);
     return level == Level::Good && validation_->projectionErrorPx.count < EnoughFrames ? Level::Warning : level;
   }
-  return Level::Good;
+  return step == WizardStep::Overlay && isTouchingAnew_ ? Level::Warning : Level::Good;
 }
 
 QString HandEyeWorkbench::verdictOf(WizardStep step) const
@@ -133,17 +133,18 @@ QString HandEyeWorkbench::verdictOf(WizardStep step) const
     case WizardStep::Devices:
       return devices_->missing(true).isEmpty() ? tr("Stylus, camera marker and video arrive.") : QString();
     case WizardStep::Camera:
-      return camera_ ? tr("Lens from %1.").arg(camera_->origin) : QString();
+      return camera_ ? tr("The lens is known.") : QString();
     case WizardStep::Stylus:
       return stylus_ ? stylus_->message : QString();
     case WizardStep::Ball:
-      return ball_.wasSeen ? tr("The ball is found.") : QString();
+      return ball_.wasSeen ? tr("The ball has been found with this radius and colour.") : QString();
     case WizardStep::Capture:
       return calibration_ && calibration_->isUsable() ? QString::fromStdString(calibration_->calibration.message) : QString();
     case WizardStep::Validation:
       return validation_ ? QString::fromStdString(validation_->message) : QString();
     case WizardStep::Overlay:
-      return registration_ && registration_->isUsable() ? QString::fromStdString(registration_->message)
+      return isTouchingAnew_ && modelToPhantom_      ? tr("The registration of before stays in use until 3 landmarks are touched.")
+        : registration_ && registration_->isUsable() ? QString::fromStdString(registration_->message)
         : modelToPhantom_ ? tr("The phantom is registered, by a file or by the session as it was opened.")
                           : QString();
     case WizardStep::Comparison:

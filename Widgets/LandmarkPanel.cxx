@@ -54,11 +54,15 @@ bool LandmarkPanel::loadModelLandmarks(const QString& path)
       landmark.point_Model = points[index];
       landmarks.append(landmark);
     }
+    if (!d->landmarks.isEmpty())
+    {
+      d->remember(tr("load landmarks"));
+    }
     d->fileError.clear();
     d->ui.fileLabel->setText(
       QFileInfo(path).fileName() + QStringLiteral(": ") + counted(landmarks.size(), tr("1 landmark"), tr("%1 landmarks")));
     d->ui.fileLabel->setToolTip(path);
-    this->setLandmarks(landmarks);
+    d->replace(landmarks, 0);
     return true;
   }
   catch (const std::exception& error)
@@ -71,11 +75,10 @@ bool LandmarkPanel::loadModelLandmarks(const QString& path)
 
 void LandmarkPanel::setLandmarks(const QVector<Landmark>& landmarks)
 {
-  d->landmarks = landmarks;
+  d->history.clear();
   d->lastTaken_Phantom.reset();
-  d->current = landmarks.isEmpty() ? -1 : d->nextUntouched(-1);
-  d->changed();
-  emit currentLandmarkChanged(d->current);
+  d->landmarks = landmarks;
+  d->replace(landmarks, landmarks.isEmpty() ? -1 : d->nextUntouched(-1));
 }
 
 const QVector<LandmarkPanel::Landmark>& LandmarkPanel::landmarks() const
@@ -158,6 +161,7 @@ void LandmarkPanel::setTouched(const Eigen::Vector3d& tip_Phantom)
     return;
   }
   const int before = d->current;
+  d->remember(tr("touch"));
   d->landmarks[before].touched_Phantom = tip_Phantom;
   d->landmarks[before].skipped = false;
   d->lastTaken_Phantom = tip_Phantom;
@@ -182,10 +186,11 @@ bool LandmarkPanel::offerTip(const Eigen::Vector3d& tip_Phantom, double differen
   return true;
 }
 
-void LandmarkPanel::redoCurrent()
+void LandmarkPanel::takeBackCurrent()
 {
   if (d->current >= 0 && d->landmarks[d->current].touched_Phantom)
   {
+    d->remember(tr("take back"));
     d->landmarks[d->current].touched_Phantom.reset();
     d->changed();
   }
@@ -198,6 +203,7 @@ void LandmarkPanel::skipCurrent()
     return;
   }
   const int before = d->current;
+  d->remember(d->landmarks[before].skipped ? tr("do not skip") : tr("skip"));
   Landmark& landmark = d->landmarks[before];
   landmark.skipped = !landmark.skipped;
   const int next = landmark.skipped ? d->nextUntouched(before) : -1;
@@ -211,13 +217,32 @@ void LandmarkPanel::skipCurrent()
 
 void LandmarkPanel::clearTouched()
 {
+  d->remember(tr("start over"));
   QVector<Landmark> landmarks = d->landmarks;
   for (Landmark& landmark : landmarks)
   {
     landmark.touched_Phantom.reset();
     landmark.skipped = false;
   }
-  this->setLandmarks(landmarks);
+  d->replace(landmarks, landmarks.isEmpty() ? -1 : 0);
+}
+
+void LandmarkPanel::forgetTouched()
+{
+  this->clearTouched();
+  d->history.clear();
+  d->update();
+}
+
+void LandmarkPanel::undo()
+{
+  if (!d->history.isEmpty())
+  {
+    const Private::Before before = d->history.takeLast();
+    d->ui.fileLabel->setText(before.fileWords);
+    d->fileError.clear();
+    d->replace(before.landmarks, before.current);
+  }
 }
 
 }  // namespace handeye

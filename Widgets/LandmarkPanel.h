@@ -45,9 +45,12 @@ public:
   explicit LandmarkPanel(QWidget* parent = nullptr);
   ~LandmarkPanel() override;
 
-  /// Loads the model's landmarks; what was touched is forgotten. @return false: the reason is shown in the panel
+  /// Loads the model's landmarks; what was touched is taken away, and undo() brings it back. @return false: the reason is shown in
+  /// the panel
   bool loadModelLandmarks(const QString& path);
+  /// The same without a way back: another session's, or another mesh's.
   void setLandmarks(const QVector<Landmark>& landmarks);
+  void forgetTouched();
   const QVector<Landmark>& landmarks() const;
   Pairs pairs() const;
 
@@ -70,9 +73,13 @@ public slots:
   /// The tip rests here: taken like setTouched() if hands-free touching is on and the tip has left the place it was last taken at
   /// (differentPlaceMm apart). @return whether it was taken
   bool offerTip(const Eigen::Vector3d& tip_Phantom, double differentPlaceMm = 8);
-  void redoCurrent();
+  /// The current landmark's point is taken back, to be touched again.
+  void takeBackCurrent();
   void skipCurrent();
+  /// All points are taken back.
   void clearTouched();
+  /// As it was before the last of all these; with nothing to undo it does nothing.
+  void undo();
 
 signals:
   /// "Touch" was pressed: the tip is wanted for this landmark.

@@ -5,6 +5,7 @@
 #include <QFileDialog>
 #include <QHeaderView>
 #include <QShortcut>
+#include <QStyle>
 #include <QTableWidget>
 
 #include <algorithm>
@@ -43,7 +44,7 @@ void LandmarkPanel::Private::setUpUi()
   header->setSectionResizeMode(NameColumn, QHeaderView::Stretch);
   ui.openLandmarksButton->setIcon(icon(QStringLiteral("open")));
   ui.touchButton->setIcon(icon(QStringLiteral("landmark")));
-  ui.redoButton->setIcon(icon(QStringLiteral("undo")));
+  ui.undoButton->setIcon(icon(QStringLiteral("undo")));
   ui.skipButton->setIcon(icon(QStringLiteral("skip")));
   ui.loadButton->setIcon(icon(QStringLiteral("open")));
   ui.saveButton->setIcon(icon(QStringLiteral("save")));
@@ -83,7 +84,8 @@ void LandmarkPanel::Private::connectButtons()
       this->update();
       emit q.handsFreeChanged(on);
     });
-  connect(ui.redoButton, &QPushButton::clicked, &q, &LandmarkPanel::redoCurrent);
+  connect(ui.takeBackButton, &QPushButton::clicked, &q, &LandmarkPanel::takeBackCurrent);
+  connect(ui.undoButton, &QToolButton::clicked, &q, &LandmarkPanel::undo);
   connect(ui.skipButton, &QPushButton::clicked, &q, &LandmarkPanel::skipCurrent);
   connect(ui.clearButton, &QPushButton::clicked, &q, &LandmarkPanel::clearTouched);
   connect(ui.table, &QTableWidget::currentCellChanged, &q, [this](int row) { q.setCurrentLandmark(row); });
@@ -107,8 +109,9 @@ void LandmarkPanel::Private::connectButtons()
         emit q.loadRequested(path);
       }
     });
-  this->addShortcut(Qt::Key_Backspace, &LandmarkPanel::redoCurrent);
-  this->addShortcut(Qt::Key_Delete, &LandmarkPanel::redoCurrent);
+  this->addShortcut(Qt::Key_Backspace, &LandmarkPanel::takeBackCurrent);
+  this->addShortcut(Qt::Key_Delete, &LandmarkPanel::takeBackCurrent);
+  this->addShortcut(QKeySequence::Undo, &LandmarkPanel::undo);
   auto* touch = new QShortcut(Qt::Key_Space, ui.table);
   touch->setContext(Qt::WidgetShortcut);
   connect(touch, &QShortcut::activated, ui.touchButton, [this] { ui.touchButton->click(); });
@@ -195,6 +198,21 @@ void LandmarkPanel::Private::update()
   }
   this->updateButtons();
   this->updateVerdict();
+  this->fitTable();
+}
+
+/// Three rows are seen in a low window, all of them in a high one.
+void LandmarkPanel::Private::fitTable()
+{
+  constexpr int LeastRows = 3;
+  constexpr int HeaderLines = 2;
+  const QHeaderView* titles = ui.table->horizontalHeader();
+  const int header = HeaderLines * titles->fontMetrics().lineSpacing() +
+    2 * titles->style()->pixelMetric(QStyle::PM_HeaderMargin, nullptr, titles) + 1 + 2 * ui.table->frameWidth();
+  const int row = ui.table->verticalHeader()->defaultSectionSize();
+  const int most = std::max(LeastRows, int(landmarks.size()));
+  ui.table->setMinimumHeight(header + LeastRows * row);
+  ui.table->setMaximumHeight(header + most * row);
 }
 
 void LandmarkPanel::Private::updateButtons()
@@ -203,9 +221,14 @@ void LandmarkPanel::Private::updateButtons()
   const bool touched = any && landmarks[current].touched_Phantom.has_value();
   ui.touchButton->setEnabled(any && tipAvailable && !landmarks[current].skipped);
   ui.touchButton->setText(touched ? LandmarkPanel::tr("&Touch again") : LandmarkPanel::tr("&Touch"));
-  ui.redoButton->setEnabled(touched);
+  ui.takeBackButton->setEnabled(touched);
+  ui.undoButton->setEnabled(!history.isEmpty());
+  ui.undoButton->setToolTip(history.isEmpty()
+      ? LandmarkPanel::tr("Nothing to undo")
+      : LandmarkPanel::tr("Undo: %1 (%2)")
+          .arg(history.last().what, QKeySequence(QKeySequence::Undo).toString(QKeySequence::NativeText)));
   ui.skipButton->setEnabled(any);
-  ui.skipButton->setText(any && landmarks[current].skipped ? LandmarkPanel::tr("Do not s&kip") : LandmarkPanel::tr("S&kip"));
+  ui.skipButton->setText(any && landmarks[current].skipped ? LandmarkPanel::tr("Do not sk&ip") : LandmarkPanel::tr("Sk&ip"));
   ui.clearButton->setEnabled(
     std::any_of(landmarks.begin(), landmarks.end(), [](const Landmark& one) { return one.touched_Phantom || one.skipped; }));
   ui.saveButton->setEnabled(result && result->isUsable());
@@ -290,7 +313,15 @@ void LandmarkPanel::Private::updateVerdict()
   }
   else if (touched < FewestLandmarks)
   {
-    this->showVerdict(LandmarkPanel::tr("%1 of at least %2 landmarks touched.").arg(touched).arg(FewestLandmarks), Level::Info);
+    QString text = LandmarkPanel::tr("%1 of at least %2 landmarks touched.").arg(touched).arg(FewestLandmarks);
+    const int before = touchedBefore();
+    if (before > touched)
+    {
+      text += QLatin1Char(' ') +
+        counted(
+          before, LandmarkPanel::tr("Undo brings 1 touched point back."), LandmarkPanel::tr("Undo brings %1 touched points back."));
+    }
+    this->showVerdict(text, Level::Info);
   }
   else
   {
@@ -310,6 +341,32 @@ int LandmarkPanel::Private::nextUntouched(int after) const
     }
   }
   return -1;
+}
+
+/// What takes touched points away can be undone.
+void LandmarkPanel::Private::remember(const QString& what)
+{
+  constexpr int MostSteps = 200;
+  history.append({ what, landmarks, current, ui.fileLabel->text() });
+  if (history.size() > MostSteps)
+  {
+    history.removeFirst();
+  }
+}
+
+/// How many points there were before the last step.
+int LandmarkPanel::Private::touchedBefore() const
+{
+  const auto isPair = [](const Landmark& landmark) { return landmark.touched_Phantom && !landmark.skipped; };
+  return history.isEmpty() ? 0 : int(std::count_if(history.last().landmarks.begin(), history.last().landmarks.end(), isPair));
+}
+
+void LandmarkPanel::Private::replace(const QVector<Landmark>& with, int newCurrent)
+{
+  landmarks = with;
+  current = newCurrent;
+  this->changed();
+  emit q.currentLandmarkChanged(current);
 }
 
 /// The points are others: the result is of the past.

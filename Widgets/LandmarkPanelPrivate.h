@@ -26,6 +26,7 @@ public:
   void addShortcut(const QKeySequence& key, void (LandmarkPanel::*slot)());
   void update();
   void updateRow(int row, const QVector<int>& paired);
+  void fitTable();
   void updateButtons();
   void updateVerdict();
   QString usableVerdict() const;
@@ -33,11 +34,23 @@ public:
   void showVerdict(const QString& text, Level level);
   QString stateOf(int row) const;
   int nextUntouched(int after) const;
+  void remember(const QString& what);
+  int touchedBefore() const;
+  void replace(const QVector<Landmark>& with, int newCurrent);
   void changed();
 
   LandmarkPanel& q;
   Ui::LandmarkPanel ui{};
+  struct Before
+  {
+    QString what;
+    QVector<Landmark> landmarks;
+    int current = -1;
+    QString fileWords;
+  };
+
   QVector<Landmark> landmarks;
+  QVector<Before> history;  ///< of these landmarks, the oldest first
   int current = -1;
   bool tipAvailable = false;
   QString tipReason;

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LatencyTask.h"
 
+#include "Look.h"
 #include "WorkThread.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace handeye
@@ -35,6 +37,26 @@ void LatencyTask::start(const CameraModel& camera, const Eigen::Vector3d& tip_St
   isRunning_ = true;
   silence_.start();
   emit runningChanged();
+}
+
+QString LatencyTask::words(const TemporalCalibrationResult& result)
+{
+  constexpr double FastMmPerSec = 200;  // a hand that moves the camera briskly
+  constexpr double GoodMm = 0.3;        // a tracker's own noise at the tip
+  const auto inMs = [](double seconds) { return withUnit(1000 * seconds, 1, tr("ms")); };
+  const double latencySec = result.latencySec, offMm = FastMmPerSec * result.sigmaSec;
+  const bool isInTime = std::abs(latencySec) < 2 * result.sigmaSec;
+  const QString what = isInTime ? tr("Video and tracker are in time: %1 apart").arg(inMs(std::abs(latencySec)))
+    : latencySec < 0            ? tr("The video is %1 later than the tracker").arg(inMs(-latencySec))
+                                : tr("The tracker is %1 later than the video").arg(inMs(latencySec));
+  const QString exactness = QChar(0x00b1) + QString(QChar(0x00a0)) + inMs(result.sigmaSec);
+  const QString off = withUnit(offMm, 1, tr("mm"));
+  const QString verdict = offMm <= GoodMm
+    ? tr("Good: with a brisk motion (%1 mm/s) that leaves %2.").arg(FastMmPerSec, 0, 'f', 0).arg(off)
+    : tr("Usable, but with a brisk motion (%1 mm/s) that leaves %2: measure again with wider swings.")
+        .arg(FastMmPerSec, 0, 'f', 0)
+        .arg(off);
+  return tr("%1 (%2), and that is taken into account from now on. %3").arg(what, exactness, verdict);
 }
 
 void LatencyTask::endInSilence()
@@ -148,7 +170,7 @@ void LatencyTask::evaluate()
       }
       else
       {
-        emit refused(QString::fromStdString(result.message));
+        emit refused(tr("The latency was not measured: %1.").arg(QString::fromStdString(result.message)));
       }
     },
     Qt::QueuedConnection);

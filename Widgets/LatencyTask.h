@@ -31,14 +31,19 @@ class LatencyTask : public QObject
   Q_OBJECT
 
 public:
+  static constexpr double DefaultSec = 6;
+
   explicit LatencyTask(WorkThread& work, QObject* parent = nullptr);
 
   /// Collects for some seconds; measured() or refused() follow, in any case: where the video stops for longer than the silence that
   /// is borne, the measurement ends with that reason.
   void start(const CameraModel& camera, const Eigen::Vector3d& tip_Stylus, const QString& markerToTracker,
-    const QString& stylusToTracker, double seconds = 6);
+    const QString& stylusToTracker, double seconds = DefaultSec);
   void cancel();
   bool isRunning() const { return isRunning_; }
+
+  /// A usable result for a person: which of the two is late, by how much, how exact that is, and whether that is good enough.
+  static QString words(const TemporalCalibrationResult& result);
 
   /// 5 s unless set.
   void setLongestSilence(int milliseconds) { silence_.setInterval(milliseconds); }

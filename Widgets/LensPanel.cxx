@@ -21,18 +21,18 @@ QString resultText(const LensCalibrationResult& result)
   const CameraModel& lens = *result.camera;
   const Eigen::Vector4d& sigma = result.cameraMatrixSigmas;
   const auto number = [](double value, int digits) { return QLocale().toString(value, 'f', digits); };
-  QString text =
-    LensPanel::tr("<p>%1</p><table cellspacing='4'>"
-                  "<tr><td>Focal length:</td><td>%2 x %3 px<br>(± %4, %5 px)</td></tr>"
-                  "<tr><td>Principal point:</td><td>%6, %7 px<br>(± %8, %9 px)</td></tr>")
-      .arg(QString::fromStdString(result.message).toHtmlEscaped(), number(lens.fx(), 2), number(lens.fy(), 2), number(sigma(0), 2),
-        number(sigma(1), 2), number(lens.cx(), 2), number(lens.cy(), 2), number(sigma(2), 2), number(sigma(3), 2));
+  QString text = LensPanel::tr("<p>%1</p><table cellspacing='4'>"
+                               "<tr><td>Focal length:</td><td>%2 x %3 px<br>(± %4, %5 px)</td></tr>"
+                               "<tr><td>Principal point:</td><td>%6, %7 px<br>(± %8, %9 px)</td></tr>")
+                   .arg(asSentence(QString::fromStdString(result.message)).toHtmlEscaped(), number(lens.fx(), 2),
+                     number(lens.fy(), 2), number(sigma(0), 2), number(sigma(1), 2), number(lens.cx(), 2), number(lens.cy(), 2),
+                     number(sigma(2), 2), number(sigma(3), 2));
   text += LensPanel::tr("<tr><td>Residuals:</td><td>%1 px RMS, %2 views</td></tr></table>")
             .arg(number(result.rmsPx, 3))
             .arg(result.usedCount);
   if (!result.modelHint.empty())
   {
-    text += LensPanel::tr("<p>Model: %1</p>").arg(QString::fromStdString(result.modelHint).toHtmlEscaped());
+    text += LensPanel::tr("<p>Lens model: %1</p>").arg(asSentence(QString::fromStdString(result.modelHint)).toHtmlEscaped());
   }
   for (std::size_t i = 0; i < result.views.size(); ++i)
   {
@@ -44,6 +44,26 @@ QString resultText(const LensCalibrationResult& result)
     }
   }
   return text;
+}
+
+/// The board's description for a person who holds the board in the hands.
+QString inWords(const BoardDescription& board)
+{
+  const QString size = LensPanel::tr("%1 x %2").arg(board.columns).arg(board.rows);
+  const QString mm = QLocale().toString(board.spacingMm, 'g', 4);
+  switch (board.kind)
+  {
+    case BoardDescription::Kind::Chessboard:
+      return LensPanel::tr("Chessboard: %1 inner corners, squares of %2 mm").arg(size, mm);
+    case BoardDescription::Kind::Charuco:
+      return LensPanel::tr("ChArUco board: %1 squares of %2 mm, markers of %3 mm")
+        .arg(size, mm, QLocale().toString(board.markerMm, 'g', 4));
+    case BoardDescription::Kind::Circles:
+      return LensPanel::tr("Circles: %1, %2 mm apart").arg(size, mm);
+    case BoardDescription::Kind::AsymmetricCircles:
+      return LensPanel::tr("Staggered circles: %1, spacing %2 mm").arg(size, mm);
+  }
+  return {};
 }
 
 }  // namespace
@@ -93,10 +113,10 @@ LensPanel::LensPanel(HandEyeWorkbench& workbench, QWidget* parent)
 
 LensPanel::~LensPanel() = default;
 
-/// What the text describes; otherwise why not stands below it.
+/// What the text describes, which stands below it in words; otherwise why not.
 std::optional<BoardDescription> LensPanel::board() const
 {
-  QString problem;
+  QString words;
   std::optional<BoardDescription> board;
   try
   {
@@ -104,10 +124,9 @@ std::optional<BoardDescription> LensPanel::board() const
   }
   catch (const std::exception& error)
   {
-    problem = QString::fromUtf8(error.what());
+    words = asSentence(QString::fromUtf8(error.what()));
   }
-  ui_->boardProblemLabel->setText(problem);
-  ui_->boardProblemLabel->setVisible(!problem.isEmpty());
+  ui_->boardProblemLabel->setText(board ? inWords(*board) : words);
   return board;
 }
 
@@ -209,7 +228,7 @@ void LensPanel::refresh()
   ui_->printButton->setEnabled(hasBoard);
   ui_->recordingButton->setEnabled(isIdle && hasBoard);
   ui_->startButton->setEnabled(hasBoard && !lens.isWorking() && workbench_.devices().isConnected());
-  ui_->startButton->setText(lens.isCollecting() ? tr("&Stop") : tr("&Start"));
+  ui_->startButton->setText(lens.isCollecting() ? tr("&Stop taking views") : tr("&Start taking views"));
   ui_->calibrateButton->setText(!lens.isWorking() ? tr("&Calibrate") : lens.isCancelling() ? tr("Stopping…") : tr("&Cancel"));
   ui_->clearButton->setEnabled(isIdle && lens.state().pictures > 0);
   ui_->progressBar->setVisible(lens.isWorking());
@@ -217,7 +236,7 @@ void LensPanel::refresh()
   if (lens.state().pictures == 0 && isIdle)
   {
     ui_->hintLabel->setText(workbench_.devices().isConnected()
-        ? tr("Press Start and show the board to the camera from all sides.")
+        ? tr("Press Start taking views and show the board to the camera from all sides.")
         : tr("No camera is connected: connect one on the page Devices, or take a recording."));
   }
   showResult();

@@ -6,6 +6,7 @@
 #include <QLocale>
 #include <QPalette>
 
+#include <algorithm>
 #include <cmath>
 
 /// The icons are part of a static library; without this the linker leaves them out. Not in a namespace: rcc's function is not.
@@ -79,6 +80,37 @@ QIcon levelIcon(Level level)
       break;
   }
   return icon(QStringLiteral("info"));
+}
+
+QColor linkColor(const QPalette& palette)
+{
+  const auto luminance = [](const QColor& color)
+  {
+    const auto linear = [](double share) { return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4); };
+    return 0.2126 * linear(color.redF()) + 0.7152 * linear(color.greenF()) + 0.0722 * linear(color.blueF());
+  };
+  const double link = luminance(palette.color(QPalette::Link)), ground = luminance(palette.color(QPalette::Window));
+  constexpr double LeastContrast = 4.5;  // of text, after WCAG 2
+  return (std::max(link, ground) + 0.05) / (std::min(link, ground) + 0.05) >= LeastContrast ? palette.color(QPalette::Link)
+    : isDark(palette)                                                                       ? QColor(0x6c, 0xb6, 0xff)
+                                                                                            : QColor(0x1f, 0x5f, 0xa8);
+}
+
+QString asSentence(const QString& message)
+{
+  QString sentence = message.trimmed();
+  if (sentence.isEmpty())
+  {
+    return sentence;
+  }
+  // The name of a file or a stream stays what it is.
+  const QString first = sentence.section(QLatin1Char(' '), 0, 0);
+  const auto isOfAName = [](QChar c) { return c.isDigit() || QStringLiteral("./_'").contains(c); };
+  if (std::none_of(first.begin(), first.end(), isOfAName))
+  {
+    sentence[0] = sentence[0].toUpper();
+  }
+  return QStringLiteral(".!?:…>").contains(sentence.back()) ? sentence : sentence + QLatin1Char('.');
 }
 
 QString counted(int count, const QString& one, const QString& many)

@@ -40,6 +40,13 @@ Level errorLevel(double meanPx);
 /// "info", "ok", "warning", "error": a shape for each level.
 QIcon levelIcon(Level level);
 
+/// The colour of a link on a palette's window, readable: the palette's own where it has the contrast, which those of dark desktops often
+/// have not.
+QColor linkColor(const QPalette& palette);
+
+/// A message of the layers below, which is a clause, as it stands alone: with a capital, and a full stop unless it ends with a mark.
+QString asSentence(const QString& message);
+
 /// "1 sample", "4 samples": one of two texts by a count; %1 in the second is the count. English needs no translation file then.
 QString counted(int count, const QString& one, const QString& many);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OverlayPage.h"
 
+#include "FoldBehind.h"
 #include "LandmarkDocument.h"
 #include "LandmarkPanel.h"
 #include "ui_OverlayPage.h"
@@ -47,6 +48,9 @@ OverlayPage::OverlayPage(HandEyeWorkbench& workbench, QWidget* parent)
   , ui_(std::make_unique<Ui::OverlayPage>())
 {
   ui_->setupUi(this);
+  foldBehind(*ui_->lookButton, *ui_->lookGroup);
+  ui_->lookGroup->layout()->setContentsMargins(0, 0, 0, 0);
+  connect(ui_->lookButton, &QToolButton::clicked, this, [this] { isLookChosen_ = true; });
   connect(ui_->ownModelButton, &QPushButton::clicked, this,
     [this]
     {
@@ -76,6 +80,7 @@ OverlayPage::OverlayPage(HandEyeWorkbench& workbench, QWidget* parent)
         return;
       }
       workbench_.storeLandmarks(landmarksJson(ui_->landmarks->landmarks(), touchedModel_));
+      workbench_.setTouchingAnew(pairs.landmarks.size() < FewestLandmarks);
       if (pairs.landmarks.size() < FewestLandmarks)
       {
         ui_->landmarks->setResult({});
@@ -113,6 +118,12 @@ void OverlayPage::enter()
   }
   offerOwnLandmarks();
   playRoom();
+  // Where there is room for it, it is open, until a person says otherwise.
+  constexpr int HighWindow = 1000;
+  if (!isLookChosen_)
+  {
+    ui_->lookButton->setChecked(window()->height() >= HighWindow);
+  }
 }
 
 /// What was touched belongs to the session of its time, and so do the landmarks of the program's own mesh.
@@ -124,7 +135,7 @@ void OverlayPage::forgetTouched()
   }
   else if (!ui_->landmarks->pairs().landmarks.isEmpty())
   {
-    ui_->landmarks->clearTouched();
+    ui_->landmarks->forgetTouched();
   }
   touchedModel_.clear();
 }

@@ -64,6 +64,7 @@ private:
   QTimer tipTimer_;
   OverlayLook look_;
   bool isRecording_ = false;
+  bool isLookChosen_ = false;  ///< opened or closed by the person
 };
 
 }  // namespace handeye

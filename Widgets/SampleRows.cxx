@@ -34,7 +34,7 @@ SampleRow rowOf(const CaptureSample& sample)
   }
   if (sample.isExcluded)
   {
-    row.status = words("excluded");
+    row.status = words("left out");
     row.level = Level::Info;
   }
   return row;

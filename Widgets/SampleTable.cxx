@@ -9,6 +9,8 @@
 #include <QHeaderView>
 #include <QMenu>
 #include <QScrollBar>
+#include <QStyle>
+#include <QTimer>
 #include <QVBoxLayout>
 
 namespace handeye
@@ -63,6 +65,7 @@ SampleTable::SampleTable(QWidget* parent)
       menu->popup(d->view->viewport()->mapToGlobal(place));
     });
   d->updateActions();
+  this->setMinimumHeight(this->minimumSizeHint().height());  // also where a page ignores the hints
 }
 
 SampleTable::~SampleTable()
@@ -197,13 +200,20 @@ void SampleTable::redo()
 
 QSize SampleTable::minimumSizeHint() const
 {
-  return { 240, 160 };
+  constexpr int LeastRows = 3, HeaderLines = 2;
+  const QHeaderView* header = d->view->horizontalHeader();
+  const int headerPx = HeaderLines * header->fontMetrics().lineSpacing() +
+    2 * header->style()->pixelMetric(QStyle::PM_HeaderMargin, nullptr, header) + 1;
+  return { 240,
+    headerPx + LeastRows * d->view->verticalHeader()->defaultSectionSize() + 2 * d->view->frameWidth() + this->layout()->spacing() +
+      d->buttons->sizeHint().height() };
 }
 
 void SampleTable::resizeEvent(QResizeEvent* event)
 {
   QWidget::resizeEvent(event);
-  d->adjustStatusColumn();
+  // Once the view has its size, which the layout gives it after this.
+  QTimer::singleShot(0, this, [this] { d->adjustStatusColumn(); });
 }
 
 void SampleTable::changeEvent(QEvent* event)
@@ -216,6 +226,7 @@ void SampleTable::changeEvent(QEvent* event)
   else if (event->type() == QEvent::FontChange)
   {
     d->fitColumns();
+    this->setMinimumHeight(this->minimumSizeHint().height());
   }
 }
 

@@ -31,7 +31,7 @@ double sortValue(const std::optional<double>& value)
 QImage thumbnail(const QImage& picture)
 {
   const double ratio = qApp->devicePixelRatio();
-  QImage scaled = picture.scaled(QSize(68, 48) * ratio, Qt::KeepAspectRatio, Qt::SmoothTransformation);
+  QImage scaled = picture.scaled(SampleTableModel::thumbnailSize() * ratio, Qt::KeepAspectRatio, Qt::SmoothTransformation);
   scaled.setDevicePixelRatio(ratio);
   return scaled;
 }
@@ -160,7 +160,7 @@ QVariant SampleTableModel::data(const QModelIndex& index, int role) const
     case Qt::ToolTipRole:
       return this->toolTip(row, column);
     case Qt::AccessibleTextRole:
-      return column == Use ? (row.excluded ? tr("excluded") : tr("used")) : QVariant(this->text(row, column));
+      return column == Use ? (row.excluded ? tr("left out") : tr("used")) : QVariant(this->text(row, column));
     default:
       return {};
   }
@@ -171,9 +171,9 @@ QString SampleTableModel::text(const SampleRow& row, int column) const
   switch (column)
   {
     case Id:
-      return QString::number(row.id);
+      return QString::number(sampleNumber(row.id));
     case Status:
-      return row.excluded ? tr("excluded") : row.status;
+      return row.excluded ? tr("left out") : row.status;
     case ResidualPx:
       return number(row.residualPx, 2);
     case ResidualMm:
@@ -209,18 +209,21 @@ QString SampleTableModel::toolTip(const SampleRow& row, int column) const
   switch (column)
   {
     case Use:
-      return row.excluded ? tr("Sample %1 is left out on request. Tick to use it.").arg(row.id)
-                          : tr("Sample %1 takes part. Take the tick away to leave it out.").arg(row.id);
+      return row.excluded ? tr("Sample %1 is left out on request. Tick to use it.").arg(sampleNumber(row.id))
+                          : tr("Sample %1 takes part. Take the tick away to leave it out.").arg(sampleNumber(row.id));
     case Thumbnail:
-      return tr("Sample %1. Double click shows its picture.").arg(row.id);
+      return tr("Sample %1. Double click shows its picture.").arg(sampleNumber(row.id));
     case Status:
       return row.excluded ? tr("Left out on request. Before: %1").arg(row.status) : row.status;
     case ResidualPx:
-      return tr("Between the projected tip and the segmented ball, px of the image");
+      return tr("Between the projected tip and the segmented ball, px of the image") +
+        (row.residualMm ? tr("; %1 mm off the ray").arg(number(row.residualMm, 2)) : QString());
     case ResidualMm:
       return tr("Of the tip from the ray on which the camera sees the ball, mm");
     case DistanceMm:
       return tr("Of the ball from the camera, mm");
+    case Id:
+      return tr("In files: frame %1").arg(row.id);
     default:
       return {};
   }
@@ -258,6 +261,10 @@ QVariant SampleTableModel::headerData(int section, Qt::Orientation orientation, 
     return {};
   }
   const QString residual = residualTitle_.isEmpty() ? tr("Residual") : residualTitle_;
+  if (role == Qt::TextAlignmentRole && section == Status)
+  {
+    return int(Qt::AlignLeft | Qt::AlignVCenter);  // as its words: they are seen from the left
+  }
   if (role == Qt::DisplayRole)
   {
     const QString titles[ColumnCount] = { tr("Use"), tr("Picture"), tr("No."), tr("Status"), tr("%1\n[px]").arg(residual),

@@ -14,6 +14,12 @@
 namespace handeye
 {
 
+/// The number of a sample for a person, who counts from 1; files have the id, from 0.
+constexpr int sampleNumber(int id)
+{
+  return id + 1;
+}
+
 /// One sample as the table shows it.
 struct SampleRow
 {
@@ -29,8 +35,7 @@ struct SampleRow
   Level residualLevel = Level::Info;  ///< Warning, Error: the residual is marked with colour and icon
 };
 
-/// The rows of a SampleTable. A check box says whether a sample takes part; changing it asks for the change (excludeRequested), it
-/// is
+/// The rows of a SampleTable. A check box says whether a sample takes part; changing it asks for the change (excludeRequested), it is
 /// setRows() that makes it.
 class SampleTableModel : public QAbstractTableModel
 {
@@ -50,6 +55,8 @@ public:
   };
   /// What a proxy sorts by.
   static constexpr int SortRole = Qt::UserRole + 1;
+  /// At most, px without the screen's scaling.
+  static QSize thumbnailSize() { return { 46, 34 }; }
 
   explicit SampleTableModel(QObject* parent = nullptr);
 

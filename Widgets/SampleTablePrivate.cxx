@@ -82,12 +82,12 @@ void SampleTable::Private::setUpView()
   view->sortByColumn(SampleTableModel::Id, Qt::AscendingOrder);
   view->verticalHeader()->hide();
   view->verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
-  view->verticalHeader()->setDefaultSectionSize(52);
+  view->verticalHeader()->setDefaultSectionSize(SampleTableModel::thumbnailSize().height() + 4);
   view->setIconSize({ 16, 16 });
   QHeaderView* header = view->horizontalHeader();
   header->setMinimumSectionSize(24);
   header->setSectionResizeMode(QHeaderView::Fixed);
-  header->resizeSection(SampleTableModel::Thumbnail, 70);
+  header->resizeSection(SampleTableModel::Thumbnail, SampleTableModel::thumbnailSize().width() + 6);
   header->setSectionResizeMode(SampleTableModel::Status, QHeaderView::Stretch);
   header->setHighlightSections(false);
   // The words come last: in a narrow panel the numbers are seen, and the words' icon.
@@ -110,6 +110,7 @@ void SampleTable::Private::fitColumns()
     {
       widest = std::max(widest, metrics.horizontalAdvance(line));
     }
+    mmColumnPx = column == SampleTableModel::ResidualMm ? widest + marginPx + ArrowPx : mmColumnPx;
     header->resizeSection(column, widest + marginPx + (header->sortIndicatorSection() == column ? ArrowPx : 0));
   }
 }
@@ -182,16 +183,24 @@ void SampleTable::Private::requestExclusion(const QVector<int>& ids, bool exclud
     [this, ids, excluded] { emit q.excludeRequested(ids, !excluded); });
 }
 
-/// In a narrow panel the status keeps the room for some words, and the table scrolls.
+/// In a narrow panel the status keeps the room for some words: the residual in mm, which the tooltip of that in px has as well, gives way,
+/// and where that is not enough the table scrolls.
 void SampleTable::Private::adjustStatusColumn()
 {
-  const int words = 20 * q.fontMetrics().averageCharWidth();
+  const int words = 12 * q.fontMetrics().averageCharWidth();
   QHeaderView* header = view->horizontalHeader();
   int others = 0;
   for (int column = 0; column < SampleTableModel::ColumnCount; ++column)
   {
-    others += column == SampleTableModel::Status ? 0 : header->sectionSize(column);
+    const bool isOptional = column == SampleTableModel::Status || column == SampleTableModel::ResidualMm;
+    others += isOptional ? 0 : header->sectionSize(column);
   }
+  const bool hasMm = view->viewport()->width() - others - mmColumnPx >= words;
+  if (view->isColumnHidden(SampleTableModel::ResidualMm) == hasMm)
+  {
+    view->setColumnHidden(SampleTableModel::ResidualMm, !hasMm);
+  }
+  others += hasMm ? mmColumnPx : 0;
   const bool isNarrow = view->viewport()->width() - others < words;
   const QHeaderView::ResizeMode mode = isNarrow ? QHeaderView::Fixed : QHeaderView::Stretch;
   if (header->sectionResizeMode(SampleTableModel::Status) != mode)

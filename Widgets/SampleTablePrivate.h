@@ -51,6 +51,7 @@ public:
   QUndoStack* stack;
   QAction *exclude = nullptr, *include = nullptr, *remove = nullptr, *undo = nullptr, *redo = nullptr;
   bool editable = true;
+  int mmColumnPx = 0;  ///< what the residual in mm needs
 };
 
 }  // namespace handeye

@@ -57,9 +57,8 @@ StagesView::StagesView(QWidget* parent)
   : QWidget(parent)
 {
   this->setAccessibleName(tr("Steps of finding the ball"));
-  QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Preferred);
-  policy.setHeightForWidth(true);
-  this->setSizePolicy(policy);
+  // As high as there is room: the pictures are there to be looked at, and a low window has other things to show as well.
+  this->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
 }
 
 void StagesView::setStages(const cv::Mat& image, const BallStages& stages)
@@ -86,11 +85,11 @@ QString StagesView::caption(int index)
     case 0:
       return tr("1  Image");
     case 1:
-      return tr("2  Ball's colour");
+      return tr("2  Colour");
     case 2:
-      return tr("3  Without speckle");
+      return tr("3  Cleaned");
     case 3:
-      return tr("4  Outline and centre");
+      return tr("4  Outline");
     default:
       return {};
   }
@@ -120,12 +119,7 @@ QSize StagesView::sizeHint() const
 
 QSize StagesView::minimumSizeHint() const
 {
-  return { 200, 60 };
-}
-
-bool StagesView::hasHeightForWidth() const
-{
-  return true;
+  return { 200, 100 };
 }
 
 int StagesView::heightForWidth(int width) const

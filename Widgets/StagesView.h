@@ -41,7 +41,6 @@ public:
 
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
-  bool hasHeightForWidth() const override;
   int heightForWidth(int width) const override;
 
 signals:

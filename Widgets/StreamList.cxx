@@ -232,6 +232,11 @@ void StreamList::setStreams(const QVector<Stream>& streams)
   d->streams = streams;
   d->nothing->setVisible(streams.isEmpty());
   d->table->setRowCount(streams.size());
+  // As high as its rows: what follows is not pushed out of a low window.
+  constexpr int MostRows = 8;
+  const int rows = std::clamp(streams.size(), 2, MostRows);
+  d->table->setFixedHeight(d->table->horizontalHeader()->sizeHint().height() +
+    rows * d->table->verticalHeader()->defaultSectionSize() + 2 * d->table->frameWidth());
   for (int row = 0; row < streams.size(); ++row)
   {
     d->showRow(row, streams[row]);

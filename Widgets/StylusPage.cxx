@@ -164,7 +164,7 @@ void StylusPage::refresh()
   ui_->startButton->setText(isCollecting || workbench_.stylus() ? tr("&Start again") : tr("&Start pivoting"));
   ui_->finishButton->setEnabled(isCollecting);
   const std::optional<HandEyeWorkbench::Stylus>& stylus = workbench_.stylus();
-  ui_->tipLabel->setText(stylus ? tr("Tip: %1, %2, %3 mm in the marker's frame")
+  ui_->tipLabel->setText(stylus ? tr("Tip at %1, %2, %3 mm from the origin of the stylus' marker")
                                     .arg(stylus->tip_Stylus.x(), 0, 'f', 2)
                                     .arg(stylus->tip_Stylus.y(), 0, 'f', 2)
                                     .arg(stylus->tip_Stylus.z(), 0, 'f', 2)

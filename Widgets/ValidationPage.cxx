@@ -58,8 +58,9 @@ ValidationPage::ValidationPage(HandEyeWorkbench& workbench, QWidget* parent)
       }
     });
   connect(ui_->againButton, &QPushButton::clicked, &capture, &CaptureTask::evaluateAgain);
-  connect(&capture, &CaptureTask::hintChanged, this, [this] { ui_->hintLabel->setText(workbench_.validationCapture().hint()); });
-  connect(&capture, &CaptureTask::accepted, this, [this](int id) { ui_->hintLabel->setText(tr("Sample %1 is stored.").arg(id)); });
+  connect(&capture, &CaptureTask::hintChanged, this,
+    [this] { ui_->hintLabel->setText(asSentence(workbench_.validationCapture().hint())); });
+  connect(&capture, &CaptureTask::accepted, this, [this](int id) { ui_->hintLabel->setText(tr("Sample %1 is stored.").arg(sampleNumber(id))); });
   connect(&capture, &CaptureTask::imported, this,
     [this](const QVector<int>& ids, int refused, const QString& reason)
     { ui_->hintLabel->setText(importedWords(ids.size(), refused, reason)); });
@@ -72,6 +73,7 @@ ValidationPage::ValidationPage(HandEyeWorkbench& workbench, QWidget* parent)
       ui_->hintLabel->clear();
     });
   showStartOver();
+  connect(&workbench_.devices(), &DeviceHub::connectionChanged, ui_->hintLabel, &QLabel::clear);
   connect(&workbench_, &HandEyeWorkbench::validationChanged, this, &ValidationPage::showValidation);
 }
 
@@ -104,7 +106,8 @@ void ValidationPage::showValidation()
   ui_->statistics->setSeries(series);
   ui_->table->setRows(validationRows(workbench_.validationCapture().samples(), validation));
   // A verdict that opens Next stands beside it.
-  const QString verdict = validation ? QString::fromStdString(validation->message) : tr("No placements to test on yet.");
+  const QString verdict =
+    validation ? asSentence(QString::fromStdString(validation->message)) : tr("No placements to test on yet.");
   ui_->verdictLabel->setText(workbench_.problemOf(WizardStep::Validation).isEmpty() ? QString() : verdict);
   ui_->verdictLabel->setVisible(!ui_->verdictLabel->text().isEmpty());
 }
@@ -145,7 +148,8 @@ void ValidationPage::showStartOver()
   ui_->startOverButton->setToolTip(setAside_.isEmpty()
       ? tr("Sets all placements of the validation aside, which a wrong recording may have brought, and begins anew")
       : tr("Brings the placements back that were set aside"));
-  ui_->startOverButton->setEnabled((isAny || !setAside_.isEmpty()) && !workbench_.validationCapture().isBusy());
+  ui_->startOverButton->setVisible(isAny || !setAside_.isEmpty());
+  ui_->startOverButton->setEnabled(!workbench_.validationCapture().isBusy());
 }
 
 void ValidationPage::refresh()

@@ -158,8 +158,8 @@ void say(const Eye& eye, std::size_t count, const HandEyeGuidanceOptions& option
   const std::string down = sideOf(guidance.ball_Image.y() / height, "upper ", "lower ");
   const std::string across = sideOf(guidance.ball_Image.x() / width, "left", "right");
   const std::string side = down + across;
-  const std::string where = "pixel (" + fixedDigits(guidance.ball_Image.x(), 0) + ", " + fixedDigits(guidance.ball_Image.y(), 0) +
-    "), " + (side.empty() ? "the middle" : "the " + side + (across.empty() ? "middle" : "")) + ", " +
+  const std::string where = (side.empty() ? "the middle" : "the " + side + (across.empty() ? "middle" : "")) + " (" +
+    fixedDigits(guidance.ball_Image.x(), 0) + ", " + fixedDigits(guidance.ball_Image.y(), 0) + " px), " +
     fixedDigits(guidance.ball_Camera.z(), 0) + " mm away";
   if (count < EnoughToPredict)
   {

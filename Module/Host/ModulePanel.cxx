@@ -5,6 +5,7 @@
 #include "qSlicerAbstractModule.h"
 #include "qSlicerAbstractModuleWidget.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QScrollArea>
@@ -96,6 +97,15 @@ void ModulePanel::showHelp(const qSlicerAbstractModule& module)
     text += tr("<p><b>Acknowledgement:</b> %1</p>").arg(module.acknowledgementText());
   }
   this->Help->setHtml(text);
+}
+
+void ModulePanel::changeEvent(QEvent* event)
+{
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange && this->Module)
+  {
+    this->showHelp(*this->Module);  // its links have the colour that they were set with
+  }
 }
 
 QString ModulePanel::setModule(qSlicerAbstractModule* module)

@@ -30,6 +30,9 @@ public:
   QString setModule(qSlicerAbstractModule* module);
   qSlicerAbstractModule* module() const { return this->Module; }
 
+protected:
+  void changeEvent(QEvent* event) override;
+
 private:
   void leave();
   void showHelp(const qSlicerAbstractModule& module);

@@ -2,16 +2,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Theme.h"
 
+#include "ThemeStyle.h"
+
 #include <QApplication>
+#include <QLabel>
 #include <QPalette>
 #include <QStyle>
 #include <QStyleFactory>
 #include <QToolTip>
 
+#include <algorithm>
+#include <cmath>
+
 namespace desktop
 {
 namespace
 {
+
+constexpr double LeastContrast = 4.5;  // of text, after WCAG 2
 
 QPalette darkPalette()
 {
@@ -54,6 +62,7 @@ QPalette lightPalette()
   palette.setColor(QPalette::ToolTipText, text);
   palette.setColor(QPalette::PlaceholderText, dimmed);
   palette.setColor(QPalette::Link, QColor(0x1f, 0x5f, 0xa8));
+  palette.setColor(QPalette::LinkVisited, QColor(0x6a, 0x3f, 0xa0));
   palette.setColor(QPalette::Highlight, QColor(0x2f, 0x6f, 0xb3));
   palette.setColor(QPalette::HighlightedText, Qt::white);
   for (const QPalette::ColorRole role : { QPalette::Text, QPalette::WindowText, QPalette::ButtonText })
@@ -63,7 +72,46 @@ QPalette lightPalette()
   return palette;
 }
 
+double luminance(const QColor& color)
+{
+  const auto linear = [](double share) { return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4); };
+  return 0.2126 * linear(color.redF()) + 0.7152 * linear(color.greenF()) + 0.0722 * linear(color.blueF());
+}
+
+/// A rich text has the colour of links that the palette had when the text was set.
+void renewLinks()
+{
+  for (QWidget* const widget : QApplication::allWidgets())
+  {
+    auto* const label = qobject_cast<QLabel*>(widget);
+    if (label && label->text().contains(QLatin1String("<a ")))
+    {
+      const QString text = label->text();
+      label->setText(QString());
+      label->setText(text);
+    }
+  }
+}
+
 }  // namespace
+
+QPalette withReadableLinks(const QPalette& palette)
+{
+  QPalette readable = palette;
+  const QPalette own = luminance(palette.color(QPalette::Window)) < 0.18 ? darkPalette() : lightPalette();
+  for (const QPalette::ColorRole role : { QPalette::Link, QPalette::LinkVisited })
+  {
+    for (const QPalette::ColorRole ground : { QPalette::Window, QPalette::Base })
+    {
+      const double a = luminance(palette.color(role)), b = luminance(palette.color(ground));
+      if ((std::max(a, b) + 0.05) / (std::min(a, b) + 0.05) < LeastContrast)
+      {
+        readable.setColor(role, own.color(role));
+      }
+    }
+  }
+  return readable;
+}
 
 void applyTheme(Theme theme)
 {
@@ -71,13 +119,19 @@ void applyTheme(Theme theme)
   static const QString systemStyle = QApplication::style()->objectName();
   static const QPalette systemPalette = QApplication::palette();
   const QString style = theme == Theme::System ? systemStyle : QStringLiteral("Fusion");
-  if (QApplication::style()->objectName().compare(style, Qt::CaseInsensitive) != 0)
+  const bool isFusion = style.compare(QLatin1String("Fusion"), Qt::CaseInsensitive) == 0;
+  const bool isThere = isFusion ? qobject_cast<ThemeStyle*>(QApplication::style()) != nullptr
+                                : QApplication::style()->objectName().compare(style, Qt::CaseInsensitive) == 0;
+  if (!isThere)
   {
-    QApplication::setStyle(QStyleFactory::create(style));
+    QApplication::setStyle(isFusion ? new ThemeStyle : QStyleFactory::create(style));
   }
-  const QPalette palette = theme == Theme::System ? systemPalette : theme == Theme::Dark ? darkPalette() : lightPalette();
+  const QPalette palette = theme == Theme::System ? withReadableLinks(systemPalette)
+    : theme == Theme::Dark                        ? darkPalette()
+                                                  : lightPalette();
   QApplication::setPalette(palette);
   QToolTip::setPalette(palette);
+  renewLinks();
 }
 
 bool isDark()

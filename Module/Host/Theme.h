@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <QPalette>
 #include <QString>
 
 namespace desktop
@@ -15,8 +16,11 @@ enum class Theme
   Dark
 };
 
-/// Sets style and palette of the application. Widgets get a QEvent::PaletteChange.
+/// Sets style and palette of the application. Widgets get a QEvent::PaletteChange; links in labels get their colour anew.
 void applyTheme(Theme theme);
+
+/// The palette, with links of our own where its own could not be read: a dark palette of the system often has the blue of a light one.
+QPalette withReadableLinks(const QPalette& palette);
 
 /// Whether text is light on dark now.
 bool isDark();

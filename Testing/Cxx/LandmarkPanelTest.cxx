@@ -11,6 +11,7 @@
 #include <QSignalSpy>
 #include <QTableWidget>
 #include <QTemporaryDir>
+#include <QToolButton>
 
 #include <cmath>
 #include <stdexcept>
@@ -126,7 +127,7 @@ private slots:
     QCOMPARE(cell(panel, 3, 3), QStringLiteral("0.00"));
   }
 
-  void ASlip_IsNamed_AndTheRedoMendsIt()
+  void ASlip_IsNamed_AndTakingItBackMendsIt()
   {
     LandmarkPanel panel;
     connectRegistration(panel);
@@ -141,7 +142,7 @@ private slots:
     QVERIFY(!panel.findChild<QTableWidget*>()->item(4, 3)->icon().isNull());
     QVERIFY(panel.findChild<QTableWidget*>()->item(1, 3)->icon().isNull());
     panel.setCurrentLandmark(4);
-    panel.redoCurrent();
+    panel.takeBackCurrent();
     QCOMPARE(panel.pairs().landmarks, (QVector<int>{ 0, 1, 2, 3, 5 }));
     QVERIFY(panel.result()->isUsable());
     panel.setTouched(modelToPhantom() * panel.landmarks()[4].point_Model);
@@ -207,6 +208,78 @@ private slots:
     QTest::keyClick(table, Qt::Key_Backspace);
     QCOMPARE(changes.count(), 2);
     QVERIFY(panel.pairs().landmarks.isEmpty());
+  }
+
+  void StartingOver_IsUndone_AndTheSentenceSaysSo()
+  {
+    LandmarkPanel panel;
+    connectRegistration(panel);
+    panel.loadModelLandmarks(QString::fromLatin1(LandmarkFile));
+    testing_widgets::show(panel, { 520, 460 });
+    auto* undo = panel.findChild<QToolButton*>(QStringLiteral("undoButton"));
+    QVERIFY(!undo->isEnabled());
+    touchAll(panel);
+    const QString before = verdictOf(panel);
+    const std::vector<Eigen::Vector3d> points = panel.pairs().points_Phantom;
+    QTest::mouseClick(button(panel, "clearButton"), Qt::LeftButton);
+    QVERIFY(panel.pairs().landmarks.isEmpty());
+    QVERIFY2(verdictOf(panel).contains(QStringLiteral("0 of at least 3")) &&
+        verdictOf(panel).contains(QStringLiteral("Undo brings 6 touched points back")),
+      qPrintable(verdictOf(panel)));
+    QVERIFY2(undo->toolTip().contains(QStringLiteral("start over")), qPrintable(undo->toolTip()));
+    QTest::mouseClick(undo, Qt::LeftButton);
+    QCOMPARE(panel.pairs().landmarks.size(), 6);
+    QVERIFY(panel.pairs().points_Phantom == points);
+    QVERIFY(panel.result() && panel.result()->isUsable());
+    QCOMPARE(verdictOf(panel), before);
+  }
+
+  void EveryStep_IsUndoneInReverse_AndNotIntoAnotherSession()
+  {
+    LandmarkPanel panel;
+    panel.loadModelLandmarks(QString::fromLatin1(LandmarkFile));
+    panel.setTouched({ 1, 2, 3 });
+    panel.skipCurrent();
+    panel.setCurrentLandmark(0);
+    panel.setTouched({ 4, 5, 6 });  // over the first
+    panel.setCurrentLandmark(0);
+    panel.takeBackCurrent();
+    QVERIFY(!panel.landmarks()[0].touched_Phantom);
+    panel.undo();
+    QCOMPARE(panel.landmarks()[0].touched_Phantom->x(), 4.0);
+    panel.undo();
+    QCOMPARE(panel.landmarks()[0].touched_Phantom->x(), 1.0);
+    QVERIFY(panel.landmarks()[1].skipped);
+    panel.undo();
+    QVERIFY(!panel.landmarks()[1].skipped);
+    QCOMPARE(panel.currentLandmark(), 1);
+    panel.undo();
+    QVERIFY(panel.pairs().landmarks.isEmpty());
+    QCOMPARE(panel.landmarks().size(), 6);
+    panel.undo();  // nothing is left: nothing happens
+    QCOMPARE(panel.landmarks().size(), 6);
+    panel.setTouched({ 1, 2, 3 });
+    panel.forgetTouched();
+    panel.undo();
+    QVERIFY(panel.pairs().landmarks.isEmpty());
+  }
+
+  void LoadingOtherLandmarks_IsUndoneToo()
+  {
+    QTemporaryDir folder;
+    QFile file(folder.filePath(QStringLiteral("three.txt")));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("0 0 0\n10 0 0\n0 10 0\n");
+    file.close();
+    LandmarkPanel panel;
+    panel.loadModelLandmarks(QString::fromLatin1(LandmarkFile));
+    panel.setTouched({ 1, 2, 3 });
+    QVERIFY(panel.loadModelLandmarks(file.fileName()));
+    QCOMPARE(panel.landmarks().size(), 3);
+    panel.undo();
+    QCOMPARE(panel.landmarks().size(), 6);
+    QVERIFY(panel.landmarks()[0].touched_Phantom.has_value());
+    QVERIFY(panel.findChild<QLabel*>(QStringLiteral("fileLabel"))->text().contains(QStringLiteral("VertebraLandmarks.txt")));
   }
 
   void StartingOver_ForgetsWhatWasTouched()

@@ -85,6 +85,25 @@ private slots:
     QVERIFY(!task_->isRunning());
   }
 
+  void result_IsSaidInPlainWords_WithUnitAndVerdict()
+  {
+    handeye::TemporalCalibrationResult result;
+    result.latencySec = -0.0402;
+    result.sigmaSec = 0.0006;
+    const QString late = LatencyTask::words(result);
+    QVERIFY2(late.contains(QStringLiteral("The video is 40.2\u00a0ms later")), qPrintable(late));
+    QVERIFY2(late.contains(QStringLiteral("\u00b1\u00a00.6\u00a0ms")) && late.contains("Good: "), qPrintable(late));
+    result.latencySec = 0.025;
+    result.sigmaSec = 0.006;
+    const QString early = LatencyTask::words(result);
+    QVERIFY2(early.contains(QStringLiteral("The tracker is 25.0\u00a0ms later")), qPrintable(early));
+    QVERIFY2(early.contains("Usable, but") && early.contains(QStringLiteral("1.2\u00a0mm")), qPrintable(early));
+    result.latencySec = 0.0004;
+    result.sigmaSec = 0.0005;
+    const QString none = LatencyTask::words(result);
+    QVERIFY2(none.startsWith("Video and tracker are in time"), qPrintable(none));
+  }
+
   void cancelled_SaysNothing()
   {
     task_->setLongestSilence(50);

@@ -57,6 +57,28 @@ private slots:
     }
   }
 
+  void Links_AreReadableOnEveryGround()
+  {
+    QPalette dark = testing_widgets::darkPalette();
+    QVERIFY(linkColor(dark) == dark.color(QPalette::Link));
+    dark.setColor(QPalette::Link, Qt::blue);
+    QPalette light = testing_widgets::lightPalette();
+    light.setColor(QPalette::Link, Qt::yellow);
+    for (const QPalette& palette : { dark, light })
+    {
+      QVERIFY(contrast(linkColor(palette), palette.color(QPalette::Window)) >= 4.5);
+    }
+  }
+
+  void AClause_BecomesASentence_AndNamesStayAsTheyAre()
+  {
+    QCOMPARE(asSentence(QStringLiteral("hold the ball still")), QStringLiteral("Hold the ball still."));
+    QCOMPARE(asSentence(QStringLiteral("Load a model.")), QStringLiteral("Load a model."));
+    QCOMPARE(asSentence(QStringLiteral("is that so?")), QStringLiteral("Is that so?"));
+    QCOMPARE(asSentence(QStringLiteral("stylus.json: no tip")), QStringLiteral("stylus.json: no tip."));
+    QCOMPARE(asSentence({}), QString());
+  }
+
   void LevelsAndSeries_HaveContrastInBothPalettes()
   {
     for (const QPalette& palette : { testing_widgets::lightPalette(), testing_widgets::darkPalette() })

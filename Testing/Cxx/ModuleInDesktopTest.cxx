@@ -16,11 +16,13 @@
 #include <QAbstractButton>
 #include <QDir>
 #include <QDirIterator>
+#include <QHeaderView>
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QLabel>
 #include <QScrollBar>
+#include <QTableView>
 
 using desktop::DesktopWindow;
 
@@ -144,16 +146,51 @@ private slots:
     QVERIFY2(this->LongestWorkMs < 100, qPrintable(QString("%1 ms").arg(this->LongestWorkMs)));
   }
 
-  void everyPage_IsPhotographedAtBothSizes()
+  void mainAction_IsSeenInALowWindowWithoutScrolling()
   {
-    const QVector<QPair<QSize, QString>> sizes = { { QSize(1280, 800), "1280x800" }, { QSize(2560, 1440), "2560x1440" } };
+    const QStringList actions = { "connectButton", "loadButton", "startButton", "measureButton", "takeButton", "takeButton",
+      "compareButton", "touchButton", "exportButton" };
+    this->Window->resize(1000, 700);
+    QStringList faults;
+    for (int step = 1; step <= actions.size(); ++step)
+    {
+      this->goTo(step);
+      const QAbstractButton* const button = this->visibleButton(actions[step - 1]);
+      if (!button || button->visibleRegion().boundingRect() != button->rect())
+      {
+        faults << QString("page %1: %2").arg(step).arg(actions[step - 1]);
+      }
+    }
+    QVERIFY2(faults.isEmpty(), qPrintable(faults.join("; ")));
+  }
+
+  void samples_AreSeenInALowWindow()
+  {
+    this->Window->resize(1000, 700);
+    this->goTo(5);
+    for (const QTableView* const table : this->Window->findChildren<QTableView*>())
+    {
+      if (table->isVisible() && table->model()->rowCount() > 0)
+      {
+        const int seen = table->viewport()->visibleRegion().boundingRect().height();
+        const int row = table->verticalHeader()->defaultSectionSize();
+        QVERIFY2(seen >= 3 * row, qPrintable(QString("%1 px of rows of %2 px").arg(seen).arg(row)));
+        return;
+      }
+    }
+    QFAIL("there is no table with samples");
+  }
+
+  void everyPage_IsPhotographedAtAllSizes()
+  {
+    const QVector<QPair<QSize, QString>> sizes = { { QSize(1000, 700), "1000x700" }, { QSize(1280, 800), "1280x800" },
+      { QSize(2560, 1440), "2560x1440" } };
     for (const auto& [size, name] : sizes)
     {
       this->Window->resize(size);
       for (int step = 1; step <= 9; ++step)
       {
-        QTest::mouseClick(this->Window->findChild<QAbstractButton*>(QString("stepButton%1").arg(step)), Qt::LeftButton);
-        QTest::qWait(600);
+        this->goTo(step);
         this->photograph(QString("desktop-%1-%2").arg(step).arg(name));
         for (const QScrollBar* const bar : this->Window->findChildren<QScrollBar*>())
         {
@@ -165,8 +202,11 @@ private slots:
     }
     desktop::applyTheme(desktop::Theme::Dark);
     this->Window->resize(1280, 800);
-    QTest::qWait(600);
-    this->photograph("desktop-9-dark");
+    for (int step = 1; step <= 9; ++step)
+    {
+      this->goTo(step);
+      this->photograph(QString("desktop-%1-dark").arg(step));
+    }
     desktop::applyTheme(desktop::Theme::Light);
   }
 
@@ -180,6 +220,12 @@ private slots:
   }
 
 private:
+  void goTo(int step)
+  {
+    QTest::mouseClick(this->Window->findChild<QAbstractButton*>(QString("stepButton%1").arg(step)), Qt::LeftButton);
+    QTest::qWait(600);
+  }
+
   QAbstractButton* visibleButton(const QString& name) const
   {
     for (QAbstractButton* const button : this->Window->findChildren<QAbstractButton*>(name))

@@ -5,6 +5,7 @@
 #include "WidgetTestSupport.h"
 
 #include <QHeaderView>
+#include <QScrollBar>
 #include <QSignalSpy>
 #include <QTableView>
 #include <QToolButton>
@@ -99,7 +100,7 @@ QVector<int> idsOf(const SampleTable& table)
   QVector<int> ids;
   for (int row = 0; row < table.view()->model()->rowCount(); ++row)
   {
-    ids.append(table.view()->model()->index(row, Model::Id).data().toInt());
+    ids.append(table.view()->model()->index(row, Model::Id).data(Model::SortRole).toInt());
   }
   return ids;
 }
@@ -198,6 +199,31 @@ private slots:
     QCOMPARE(idsOf(table), (QVector<int>{ 0, 1, 2, 3 }));
     table.clearHistory();
     QVERIFY(!table.undoStack()->canUndo() && !table.undoStack()->canRedo());
+  }
+
+  void Numbers_BeginWithOne_AndTheTooltipHasTheFilesNumber()
+  {
+    SampleTable table;
+    table.setRows(fiveRows());
+    const QModelIndex first = table.view()->model()->index(0, Model::Id);
+    QCOMPARE(first.data().toString(), QStringLiteral("1"));
+    QVERIFY2(first.data(Qt::ToolTipRole).toString().contains(QStringLiteral("frame 0")),
+      qPrintable(first.data(Qt::ToolTipRole).toString()));
+  }
+
+  void InANarrowPanel_TheStatusKeepsItsHeadingAndItsWords()
+  {
+    SampleTable table;
+    table.setRows(fiveRows());
+    testing_widgets::show(table, { 374, 240 });
+    auto* header = table.view()->horizontalHeader();
+    QVERIFY(table.view()->isColumnHidden(Model::ResidualMm));
+    const int left = header->sectionViewportPosition(Model::Status);
+    const int words = table.fontMetrics().horizontalAdvance(QStringLiteral("Status"));
+    QVERIFY2(left >= 0 && left + words < table.view()->viewport()->width(), qPrintable(QString::number(left)));
+    QVERIFY(!table.view()->horizontalScrollBar()->isVisible());
+    table.resize(640, 240);
+    QTRY_VERIFY(!table.view()->isColumnHidden(Model::ResidualMm));
   }
 
   void SeveralRows_AreOneStep()

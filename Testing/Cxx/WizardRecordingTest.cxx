@@ -231,7 +231,7 @@ void WizardRecordingTest::recording_FromFirstPageToLast()
   QCOMPARE(panel.currentStep(), WizardStep::Overlay);
   QTRY_VERIFY_WITH_TIMEOUT(workbench.model() != nullptr, PatienceMs);
   QVERIFY(!driver.canGoNext());
-  QVERIFY2(driver.reason().contains(QStringLiteral("Register the phantom")), qPrintable(driver.reason()));
+  QVERIFY2(driver.reason().contains(QStringLiteral("The phantom is not registered")), qPrintable(driver.reason()));
   const QTemporaryDir folder;
   const auto landmarks =
     handeye::readLandmarkLists(demo("phantom_model_points.txt").toStdString(), demo("phantom_touched_points.txt").toStdString());

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: HandEyeCalibration contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FaultyServer.h"
+#include "LandmarkPanel.h"
 #include "SampleTable.h"
 #include "SequenceMetafileWriter.h"
 #include "StreamList.h"
@@ -13,6 +14,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QLineEdit>
+#include <QProgressBar>
 #include <QRadioButton>
 #include <QTemporaryDir>
 #include <QToolButton>
@@ -77,6 +79,10 @@ private slots:
   void ball_ThatIsNotThere();
   void click_OnSomethingGrey();
   void tracker_ThatIsLost();
+  void lensOfAnotherSize_IsSaidAsLongAsItIsUsed();
+  void newSession_HasTheRoomsLensAgain();
+  void latency_IsExplained_AndCanBeCancelled();
+  void landmarks_StartedOver_KeepWhatWasAccepted();
   void capture_WithTooFewPlaces();
   void pages_SayWhatIsMissing();
 
@@ -288,15 +294,107 @@ void WizardRefusalsTest::tracker_ThatIsLost()
   server.setStylusSeen(false);
   panel_->goTo(WizardStep::Capture);
   auto* hint = driver_->onPage<QLabel>("hintLabel");
-  QTRY_VERIFY_WITH_TIMEOUT(hint->text().contains(QStringLiteral("StylusToTracker")), PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(hint->text().contains(QStringLiteral("Stylus:")), PatienceMs);
   QTRY_COMPARE_WITH_TIMEOUT(
     workbench().devices().stream(QStringLiteral("StylusToTracker")).light, handeye::StreamList::Light::Stale, PatienceMs);
   driver_->click(driver_->onPage("takeButton"));
-  QTRY_VERIFY_WITH_TIMEOUT(driver_->message().contains(QStringLiteral("StylusToTracker")), PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(driver_->message().contains(QStringLiteral("Not taken: stylus:")), PatienceMs);
   server.stop();
   panel_->goTo(WizardStep::Devices);
-  QTRY_VERIFY_WITH_TIMEOUT(driver_->reason().contains(QStringLiteral("No poses named")), PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(driver_->reason().contains(QStringLiteral("The stylus does not arrive")), PatienceMs);
   QVERIFY(!driver_->canGoNext());
+}
+
+/// A sentence about the lens goes with the lens, with the video, and with the session.
+void WizardRefusalsTest::lensOfAnotherSize_IsSaidAsLongAsItIsUsed()
+{
+  FaultyServer server;
+  connectTo(server);
+  loadInputs();
+  const handeye::io::CameraFile right = workbench().camera()->file;
+  const handeye::CameraModel& lens = right.camera;
+  handeye::io::CameraFile wrong = right;
+  wrong.camera = handeye::CameraModel(lens.width() / 2, lens.height() / 2, lens.cameraMatrix(), lens.distortionCoefficients());
+  const auto isSaid = [](const QString& text)
+  { return text.contains(QStringLiteral("px")) && text.contains(QStringLiteral("calibrat")); };
+  panel_->goTo(WizardStep::Ball);
+  auto* const found = driver_->onPage<QLabel>("foundLabel");
+  workbench().setCamera(wrong, QStringLiteral("wrong.yml"));
+  QTRY_VERIFY_WITH_TIMEOUT(isSaid(found->text()), PatienceMs);
+  workbench().setCamera(right, QStringLiteral("right.yml"));
+  QTRY_VERIFY_WITH_TIMEOUT(!isSaid(found->text()), PatienceMs);
+  // The hint of hands-free capturing, and what was refused there.
+  workbench().setCamera(wrong, QStringLiteral("wrong.yml"));
+  panel_->goTo(WizardStep::Capture);
+  driver_->click(driver_->onPage("takeButton"));
+  QTRY_VERIFY_WITH_TIMEOUT(isSaid(driver_->message()), PatienceMs);
+  workbench().setCamera(right, QStringLiteral("right.yml"));
+  QTRY_VERIFY2_WITH_TIMEOUT(!isSaid(driver_->message()), qPrintable(driver_->message()), PatienceMs);
+  workbench().setCamera(wrong, QStringLiteral("wrong.yml"));
+  panel_->goTo(WizardStep::Ball);
+  QTRY_VERIFY_WITH_TIMEOUT(isSaid(found->text()), PatienceMs);
+  workbench().openSession(folder_.filePath(QStringLiteral("another")));
+  QTRY_VERIFY2_WITH_TIMEOUT(!isSaid(found->text()), qPrintable(found->text()), PatienceMs);
+}
+
+void WizardRefusalsTest::newSession_HasTheRoomsLensAgain()
+{
+  driver_->click(driver_->onPage("connectButton"));
+  QTRY_VERIFY_WITH_TIMEOUT(workbench().camera().has_value(), PatienceMs);
+  const QString origin = workbench().camera()->origin;
+  QSignalSpy opened(&workbench(), &HandEyeWorkbench::sessionOpened);
+  workbench().openSession(folder_.filePath(QStringLiteral("new")));
+  QTRY_VERIFY_WITH_TIMEOUT(!opened.isEmpty(), PatienceMs);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench().camera().has_value(), PatienceMs);
+  QCOMPARE(workbench().camera()->origin, origin);
+  panel_->goTo(WizardStep::Camera);
+  QVERIFY2(driver_->canGoNext(), qPrintable(driver_->reason()));
+}
+
+void WizardRefusalsTest::latency_IsExplained_AndCanBeCancelled()
+{
+  FaultyServer server;
+  connectTo(server);
+  loadInputs();
+  panel_->goTo(WizardStep::Ball);
+  auto *const measure = driver_->onPage("measureButton"), *const cancel = driver_->onPage("latencyCancelButton");
+  const QString how = driver_->onPage<QLabel>("latencyHowLabel")->text();
+  QVERIFY2(how.contains(QStringLiteral("to and fro")) && how.contains(QStringLiteral("6 s")), qPrintable(how));
+  QVERIFY(!cancel->isVisible());
+  QTRY_VERIFY_WITH_TIMEOUT(measure->isEnabled(), PatienceMs);
+  driver_->click(measure);
+  QTRY_VERIFY_WITH_TIMEOUT(cancel->isVisible() && !measure->isVisible(), PatienceMs);
+  auto* const progress = driver_->onPage<QProgressBar>("latencyProgress");
+  QTRY_VERIFY2_WITH_TIMEOUT(progress->text().contains(QStringLiteral("s left")), qPrintable(progress->text()), PatienceMs);
+  driver_->click(cancel);
+  QTRY_VERIFY_WITH_TIMEOUT(measure->isVisible() && !cancel->isVisible(), PatienceMs);
+  QVERIFY(!workbench().latency().isRunning());
+  QCOMPARE(workbench().devices().setup().latencySec, 0.0);
+  const QString said = driver_->onPage<QLabel>("latencyLabel")->text();
+  QVERIFY2(said.startsWith(QStringLiteral("Not measured")), qPrintable(said));
+}
+
+void WizardRefusalsTest::landmarks_StartedOver_KeepWhatWasAccepted()
+{
+  loadInputs();
+  panel_->goTo(WizardStep::Capture);
+  QVERIFY(panel_->openFile(demo("calibration")));
+  QTRY_VERIFY_WITH_TIMEOUT(workbench().calibration() && workbench().calibration()->isUsable(), PatienceMs);
+  panel_->goTo(WizardStep::Overlay);
+  auto* const panel = panel_->page(WizardStep::Overlay)->findChild<handeye::LandmarkPanel*>();
+  QTRY_VERIFY_WITH_TIMEOUT(panel->landmarks().size() >= 3 && workbench().model(), PatienceMs);
+  while (panel->currentLandmark() >= 0)
+  {
+    panel->setTouched(panel->landmarks()[panel->currentLandmark()].point_Model + Eigen::Vector3d(5, 6, 7));
+  }
+  QTRY_VERIFY2_WITH_TIMEOUT(driver_->message().contains(QStringLiteral("Registered")), qPrintable(driver_->message()), PatienceMs);
+  const QString before = driver_->message();
+  driver_->click(driver_->onPage("clearButton"));
+  QTRY_VERIFY2_WITH_TIMEOUT(
+    driver_->message().contains(QStringLiteral("registration of before stays")), qPrintable(driver_->message()), PatienceMs);
+  QVERIFY(workbench().modelToPhantom().has_value());
+  QTest::mouseClick(driver_->onPage<QToolButton>("undoButton"), Qt::LeftButton);
+  QTRY_COMPARE_WITH_TIMEOUT(driver_->message(), before, PatienceMs);
 }
 
 void WizardRefusalsTest::capture_WithTooFewPlaces()
