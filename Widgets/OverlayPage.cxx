@@ -72,7 +72,9 @@ OverlayPage::OverlayPage(HandEyeWorkbench& workbench, QWidget* parent)
     [this]
     {
       const LandmarkPanel::Pairs pairs = ui_->landmarks->pairs();
-      workbench_.setTouchingAnew(pairs.landmarks.size() < 3);
+      // Landmarks that were only loaded say nothing against the registration there is.
+      const bool wasTouched = workbench_.registration().has_value() || !pairs.landmarks.isEmpty();
+      workbench_.setTouchingAnew(wasTouched && pairs.landmarks.size() < 3);
       if (pairs.landmarks.size() < 3)
       {
         ui_->landmarks->setResult({});
