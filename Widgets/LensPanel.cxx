@@ -56,8 +56,7 @@ QString inWords(const BoardDescription& board)
     case BoardDescription::Kind::Chessboard:
       return LensPanel::tr("Chessboard: %1 inner corners, squares of %2 mm").arg(size, mm);
     case BoardDescription::Kind::Charuco:
-      return LensPanel::tr("ChArUco board: %1 squares of %2 mm, markers of %3 mm")
-        .arg(size, mm, QLocale().toString(board.markerMm, 'g', 4));
+      return LensPanel::tr("ChArUco: %1 squares of %2 mm, markers %3 mm").arg(size, mm, QLocale().toString(board.markerMm, 'g', 4));
     case BoardDescription::Kind::Circles:
       return LensPanel::tr("Circles: %1, %2 mm apart").arg(size, mm);
     case BoardDescription::Kind::AsymmetricCircles:

@@ -80,7 +80,9 @@ OverlayPage::OverlayPage(HandEyeWorkbench& workbench, QWidget* parent)
         return;
       }
       workbench_.storeLandmarks(landmarksJson(ui_->landmarks->landmarks(), touchedModel_));
-      workbench_.setTouchingAnew(pairs.landmarks.size() < FewestLandmarks);
+      // Landmarks that were only loaded say nothing against the registration there is.
+      const bool wasTouched = workbench_.registration().has_value() || !pairs.landmarks.isEmpty();
+      workbench_.setTouchingAnew(wasTouched && pairs.landmarks.size() < FewestLandmarks);
       if (pairs.landmarks.size() < FewestLandmarks)
       {
         ui_->landmarks->setResult({});

@@ -107,6 +107,13 @@ QString WizardStepBar::nameOf(WizardStep step)
 void WizardStepBar::setCurrent(WizardStep step)
 {
   button(step)->setChecked(true);
+  // A dark style draws a button that is down much like the others.
+  for (int each = 0; each < WizardStepCount; ++each)
+  {
+    QFont font = this->font();
+    font.setBold(WizardStep(each) == step);
+    button(WizardStep(each))->setFont(font);
+  }
 }
 
 void WizardStepBar::setState(WizardStep step, State state, const QString& reason)

@@ -257,10 +257,10 @@ void LensTaskTest::page_CalibratesAndUsesTheLens()
   LensTask& task = workbench.lens();
   QComboBox* combo = driver.onPage<QComboBox>("boardCombo");
   combo->setEditText(QStringLiteral("charuco:9x6:24"));
-  QVERIFY(!driver.onPage<QLabel>("boardProblemLabel")->text().startsWith(QStringLiteral("ChArUco board")));
+  QVERIFY(!driver.onPage<QLabel>("boardProblemLabel")->text().startsWith(QStringLiteral("ChArUco: ")));
   combo->setEditText(QString::fromLatin1(Charuco));
   const QString board = driver.onPage<QLabel>("boardProblemLabel")->text();
-  QVERIFY2(board.startsWith(QStringLiteral("ChArUco board: ")) && board.endsWith(QStringLiteral(" mm")), qPrintable(board));
+  QVERIFY2(board.startsWith(QStringLiteral("ChArUco: ")) && board.endsWith(QStringLiteral(" mm")), qPrintable(board));
   QVERIFY(!driver.onPage("startButton")->isEnabled());  // no device is connected
   QVERIFY(!driver.onPage("useButton")->isVisible());
 

@@ -92,8 +92,8 @@ void WizardOverlayTest::initTestCase()
   frame_ = workbench.live().newest()->frame;
   workbench.devices().disconnectDevices();
   QTest::qWait(500);
-  feed(true);
-  QTRY_VERIFY_WITH_TIMEOUT(pipeline()->GetModelVisible() && pipeline()->GetFade() == 1, PatienceMs);
+  const auto* said = panel_->page(WizardStep::Overlay)->findChild<QLabel*>(QStringLiteral("overlayLabel"));
+  QVERIFY2(feedUntil([this] { return pipeline()->GetModelVisible() && pipeline()->GetFade() == 1; }), qPrintable(said->text()));
 }
 
 /// The same frame 50 ms later.
