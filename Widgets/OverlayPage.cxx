@@ -282,6 +282,8 @@ void OverlayPage::setRecording(const OverlayRecordingState& state)
     { Phase::Finishing, tr("Storing: %1").arg(counted) }, { Phase::Stored, tr("Stored: videos/%1 (%2)").arg(name, counted) },
     { Phase::Failed, tr("Not recorded:") } };
   ui_->recordButton->setText(isRecording_ ? tr("Stop recording") : tr("Record a video"));
+  // Also where the controls are closed.
+  ui_->lookButton->setText(isRecording_ ? tr("Look, pictures and video (recording)") : tr("Look, pictures and video"));
   ui_->recordButton->setEnabled(state.phase != Phase::Finishing);
   ui_->formatBox->setEnabled(!isRecording_ && state.phase != Phase::Finishing);
   ui_->eyesBox->setEnabled(!isRecording_);

@@ -33,6 +33,16 @@
 using handeye::HandEyeWorkbench;
 using handeye::WizardStep;
 
+/// In a low window the looks are behind their button.
+static void openLook(HandEyeCalibrationPanel& panel)
+{
+  auto* button = static_cast<QWidget*>(panel.page(WizardStep::Overlay))->findChild<QToolButton*>(QStringLiteral("lookButton"));
+  if (!button->isChecked())
+  {
+    button->click();
+  }
+}
+
 /// The page Overlay with the demo's capture: its recording is the live video.
 class WizardOverlayTest : public QObject
 {
@@ -83,6 +93,7 @@ void WizardOverlayTest::initTestCase()
   workbench.registerLandmarks(landmarks.points_Model, landmarks.points_Phantom);
   QTRY_VERIFY_WITH_TIMEOUT(workbench.modelToPhantom().has_value(), PatienceMs);
   panel_->goTo(WizardStep::Overlay);
+  openLook(*panel_);
   handeye::DeviceSetup setup;
   setup.kind = handeye::DeviceSetup::Kind::Recording;
   setup.recording = demo + QStringLiteral("calibration");
@@ -299,6 +310,7 @@ void WizardOverlayTest::recording_EndsWithThePage()
   }
   panel_->goTo(WizardStep::Capture);
   panel_->goTo(WizardStep::Overlay);
+  openLook(*panel_);
   QTRY_VERIFY_WITH_TIMEOUT(driver.visibleText("recordLabel").startsWith(QStringLiteral("Stored: videos/")), PatienceMs);
   QVERIFY(driver.onPage("recordButton")->text().contains(QStringLiteral("Record")));
 }
@@ -328,6 +340,7 @@ std::unique_ptr<HandEyeCalibrationPanel> WizardOverlayTest::stereoPanel(StereoSe
   const auto recording = handeye::io::Recording::open((demo + QStringLiteral("calibration")).toStdString());
   server.setPoses(recording.transform(0, "MarkerToTracker").transform, recording.transform(0, "PhantomToTracker").transform);
   panel->goTo(WizardStep::Overlay);
+  openLook(*panel);
   handeye::DeviceSetup setup;
   setup.kind = handeye::DeviceSetup::Kind::Servers;
   setup.servers = QStringList{ QStringLiteral("127.0.0.1:%1").arg(server.port()) };
