@@ -42,6 +42,7 @@ void BallPage::connectLatency()
   connect(ui_->latencyCancelButton, &QPushButton::clicked, &workbench_.latency(), &LatencyTask::cancel);
   connect(&workbench_.latency(), &LatencyTask::runningChanged, this, [this] { showLatencyProgress(0); });
   connect(&workbench_.latency(), &LatencyTask::progressed, this, &BallPage::showLatencyProgress);
+  connect(&workbench_, &HandEyeWorkbench::resultsForgotten, this, [this] { measured_.clear(); });
   connect(&workbench_, &HandEyeWorkbench::latencyChanged, this,
     [this](const QString& words)
     {
@@ -66,9 +67,8 @@ void BallPage::showLatency()
   ui_->latencyLabel->setText(latencySec == measuredSec_ && !measured_.isEmpty() ? measured_
       : latencySec != 0
       ? tr("%1 is in use, measured before or typed on the page Devices.").arg(withUnit(1000 * latencySec, 1, tr("ms")))
-      : tr("Not measured: video and tracker are taken to be in time. That is right for a ball that is held still; a moving camera "
-           "needs "
-           "it."));
+      : tr("Not measured: video and tracker are taken to be in time. "
+           "That is right for a ball that is held still; a moving camera needs it."));
 }
 
 void BallPage::leave()
@@ -130,8 +130,8 @@ void BallPage::refresh()
   ui_->forgetButton->setEnabled(ball.isColorLearnt);
   ui_->undoButton->setEnabled(ball.former.has_value());
   ui_->undoButton->setToolTip(ball.former
-      ? tr("Back to the colour before the last click: %1").arg(HandEyeWorkbench::nameOf(ball.former->color, ball.former->isLearnt))
-      : tr("Back to the colour before the last click"));
+      ? tr("Back to the colour of before: %1").arg(HandEyeWorkbench::nameOf(ball.former->color, ball.former->isLearnt))
+      : tr("Back to the colour of before"));
   const bool isMeasuring = workbench_.latency().isRunning();
   ui_->measureButton->setEnabled(!isMeasuring && workbench_.camera() && workbench_.stylus() && workbench_.devices().isConnected());
   ui_->measureButton->setVisible(!isMeasuring);

@@ -35,8 +35,8 @@ private:
 
   std::unique_ptr<Ui::BallPage> ui_;
   std::shared_ptr<const LiveView> inStages_;  ///< the frame whose pictures are shown
-  QString measured_;        ///< what was said of the last measurement...
-  double measuredSec_ = 0;  ///< ...and the latency that it was of
+  QString measured_;                          ///< what was said of the last measurement...
+  double measuredSec_ = 0;                    ///< ...and the latency that it was of
 };
 
 }  // namespace handeye

@@ -124,7 +124,7 @@ void CaptureTask::openFolder(const QString& folder)
           [message = QString::fromUtf8(error.what())](CaptureTask& task)
           {
             task.close();
-            emit task.failed(message);
+            emit task.notOpened(message);
           });
         return;
       }
@@ -147,7 +147,7 @@ void CaptureTask::openFolder(const QString& folder)
         problems << QString::fromStdString(problem);
       }
       tell(
-        [documents, problems, count = int(work.session->samples().size())](CaptureTask& task)
+        [documents, problems, count = work.shownCount()](CaptureTask& task)
         {
           task.storedSampleCount_ = count;
           emit task.opened(documents, problems);
@@ -221,7 +221,7 @@ void CaptureTask::endEvaluation(bool isGood)
 
 void CaptureTask::beginHandsFree()
 {
-  if (!isHandsFree_)
+  if (!isHandsFree_ && !begin_.isActive())
   {
     begin_.start();
   }
@@ -282,28 +282,27 @@ void CaptureTask::setExcluded(const QVector<int>& ids, bool isExcluded)
 
 void CaptureTask::setDeleted(const QVector<int>& ids, bool isDeleted)
 {
-  QVector<QPair<int, bool>> excluded;
+  std::vector<int> known, out, in;  // of which: those that take no part then, and those that do
   for (const int id : ids)
   {
     if (samples_.contains(id))
     {
       samples_[id].isDeleted = isDeleted;
-      excluded.push_back({ id, samples_[id].isExcluded || isDeleted });
+      known.push_back(id);
+      (samples_[id].takesPart() ? in : out).push_back(id);
     }
   }
   post(
-    [excluded, isDeleted](Work& work)
+    [known, out, in, isDeleted](Work& work)
     {
-      for (const auto& [id, isOut] : excluded)
+      for (const int id : known)
       {
         isDeleted ? (void)work.deleted.insert(id) : (void)work.deleted.erase(id);
       }
       // The list first: a sample in it is out of sight, whatever the next file says.
       work.session->setDocument(DeletedDocument, { { "samples", work.deleted } });
-      for (const auto& [id, isOut] : excluded)
-      {
-        work.session->setExcluded(id, isOut);
-      }
+      work.session->setExcluded(out, true);
+      work.session->setExcluded(in, false);
       work.renewLive();
     });
   emit samplesChanged();

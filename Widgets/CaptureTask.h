@@ -65,13 +65,13 @@ public:
   explicit CaptureTask(WorkThread& work, QObject* parent = nullptr);
   ~CaptureTask() override;
 
-  /// Opens a session's folder, or makes one; opened() follows, or failed(). The samples come when there are inputs.
+  /// Opens a session's folder, or makes one; opened() follows, or notOpened(). The samples come when there are inputs.
   void openFolder(const QString& folder);
   /// Lets go of the folder.
   void close();
   bool isOpen() const { return isOpen_; }
   QString folder() const { return folder_; }
-  /// How many samples the folder held when it was opened, whether they have been looked at or not.
+  /// How many samples the folder held when it was opened, deleted ones left out, whether they have been looked at or not.
   int storedSampleCount() const { return storedSampleCount_; }
 
   /// Samples that there are already are evaluated anew where the inputs are others. Nothing: no capture.
@@ -114,6 +114,8 @@ public:
 signals:
   /// The folder is open; with its documents, and sentences about what is damaged.
   void opened(const std::map<std::string, nlohmann::json>& documents, const QStringList& problems);
+  /// The folder could not be opened: there is no session.
+  void notOpened(const QString& message);
   void accepted(int id);
   void samplesChanged();
   void hintChanged();

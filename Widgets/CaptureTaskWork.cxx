@@ -8,6 +8,7 @@
 #include "TimedPose.h"
 #include "WorkThread.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -44,6 +45,12 @@ QImage thumbnailOf(const cv::Mat& image, const BallDetection& ball)
 }
 
 }  // namespace
+
+int CaptureTask::Work::shownCount() const
+{
+  const auto& all = session->samples();
+  return int(std::count_if(all.begin(), all.end(), [this](const auto& sample) { return deleted.count(sample.first) == 0; }));
+}
 
 void CaptureTask::Work::renewLive()
 {
@@ -204,45 +211,60 @@ void CaptureTask::take(Work& work, const devices::PairedFrame& frame)
   tell([sample = work.evaluate(id)](CaptureTask& task) { task.addSample(sample, true); });
 }
 
-/// In the work's thread.
+/// In the work's thread. What was taken is told, to be taken back, whether the rest could be read or not.
 void CaptureTask::readRecording(Work& work, const std::string& path, const ToolNames& tools)
 {
-  const io::Recording recording = io::Recording::open(path);
-  (void)latencyNotes(recording, tools.latencySec);  // refuses poses that are too far apart for one
-  const CameraModel camera = cameraForRecording(work.inputs->camera, recording);
-  const BallDetector detector(camera, work.inputs->ballRadiusMm, work.inputs->detection);
   QVector<int> taken;
   int refused = 0;
   std::string reason;
-  for (int frame = 0; frame < recording.frameCount() && !thread_.isCancelled() && !isOutdated(work); ++frame)
+  const auto tellImported = [&]
   {
-    tell([done = frame + 1, total = recording.frameCount()](CaptureTask& task)
-      { emit task.progress(done, total, tr("looking for the ball in the recording")); });
-    if (!recording.hasImage(frame))
+    work.renewLive();
+    tell(
+      [taken, refused, text = QString::fromStdString(reason)](CaptureTask& task)
+      {
+        task.setBusy(false);
+        emit task.imported(taken, refused, text);
+      });
+  };
+  try
+  {
+    const io::Recording recording = io::Recording::open(path);
+    (void)latencyNotes(recording, tools.latencySec);  // refuses poses that are too far apart for one
+    const CameraModel camera = cameraForRecording(work.inputs->camera, recording);
+    const BallDetector detector(camera, work.inputs->ballRadiusMm, work.inputs->detection);
+    for (int frame = 0; frame < recording.frameCount() && !thread_.isCancelled() && !isOutdated(work); ++frame)
     {
-      continue;
+      tell([done = frame + 1, total = recording.frameCount()](CaptureTask& task)
+        { emit task.progress(done, total, tr("looking for the ball in the recording")); });
+      if (!recording.hasImage(frame))
+      {
+        continue;
+      }
+      io::SessionSample stored = sampleOfFrame(recording, frame, tools);
+      const cv::Mat image = recording.image(frame);
+      const CapturedFrame captured = evaluateSample(stored, image, tools, detector, work.inputs->tip_Stylus);
+      if (!captured.isSample())
+      {
+        ++refused;
+        reason = reason.empty() ? "frame " + std::to_string(frame) + " of the file: " + captured.message : reason;
+        continue;
+      }
+      stored.detection = detectionJson(captured);
+      const int id = work.session->addSample(image, stored);
+      taken << id;
+      tell([sample = work.evaluate(id)](CaptureTask& task) { task.addSample(sample, false); });
     }
-    io::SessionSample stored = sampleOfFrame(recording, frame, tools);
-    const cv::Mat image = recording.image(frame);
-    const CapturedFrame captured = evaluateSample(stored, image, tools, detector, work.inputs->tip_Stylus);
-    if (!captured.isSample())
-    {
-      ++refused;
-      reason = reason.empty() ? "frame " + std::to_string(frame) + ": " + captured.message : reason;
-      continue;
-    }
-    stored.detection = detectionJson(captured);
-    const int id = work.session->addSample(image, stored);
-    taken << id;
-    tell([sample = work.evaluate(id)](CaptureTask& task) { task.addSample(sample, false); });
   }
-  work.renewLive();
-  tell(
-    [taken, refused, text = QString::fromStdString(reason)](CaptureTask& task)
+  catch (...)
+  {
+    if (!taken.isEmpty())
     {
-      task.setBusy(false);
-      emit task.imported(taken, refused, text);
-    });
+      tellImported();
+    }
+    throw;
+  }
+  tellImported();
 }
 
 }  // namespace handeye

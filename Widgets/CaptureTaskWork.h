@@ -26,6 +26,8 @@ struct CaptureTask::Work
   devices::LiveCapture::Step::Status lastStatus = devices::LiveCapture::Step::Status::Accepted;
   std::string lastMessage;
 
+  /// How many samples are not deleted.
+  int shownCount() const;
   /// The places that are taken are looked at anew.
   void renewLive();
   /// A message with the tools' words in place of the names of their streams.

@@ -8,7 +8,6 @@
 
 #include <QElapsedTimer>
 
-#include <stdexcept>
 #include <utility>
 
 namespace handeye
@@ -150,8 +149,8 @@ void ComparisonTask::writeReport(const QString& folder)
   }
   begin();
   emit progressed(tr("writing the report"), 0, 0);
-  const report::PlotDrawer draw = [thread = work_.get(), isCancelled = isCancelled_](const report::Plot& plot)
-  { return *isCancelled || thread->isEnding() ? throw std::runtime_error("the report was cancelled") : paintPlot(plot); };
+  const report::PlotDrawer draw =
+    paintUnless([thread = work_.get(), isCancelled = isCancelled_] { return *isCancelled || thread->isEnding(); });
   work_->post(
     [this, folder, draw, comparison = result_, isCancelled = isCancelled_]
     {

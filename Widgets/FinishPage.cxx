@@ -24,7 +24,7 @@ FinishPage::FinishPage(HandEyeWorkbench& workbench, QWidget* parent)
     [this](const QString& path)
     {
       ui_->exports->addWrittenFile(path, tr("report of the validation"));
-      showReport(path);
+      refresh();
     });
   connect(ui_->exports, &ExportPanel::exported, &workbench_,
     [this](const QStringList& files)
@@ -35,6 +35,12 @@ FinishPage::FinishPage(HandEyeWorkbench& workbench, QWidget* parent)
       }
     });
   ui_->reportLabel->setOpenExternalLinks(true);
+  // What could be exported was the session's before; a page that is shown has the new one's at once.
+  connect(&workbench_, &HandEyeWorkbench::resultsForgotten, this, [this] { ui_->exports->setSources({}); });
+  connect(&workbench_, &HandEyeWorkbench::calibrationChanged, this, &FinishPage::renew);
+  connect(&workbench_, &HandEyeWorkbench::validationChanged, this, &FinishPage::renew);
+  connect(&workbench_, &HandEyeWorkbench::registrationChanged, this, &FinishPage::renew);
+  connect(&workbench_, &HandEyeWorkbench::sessionOpened, this, &FinishPage::renew);
   connect(&workbench_, &HandEyeWorkbench::refused, this,
     [this](WizardStep step, const QString& message)
     {
@@ -46,6 +52,14 @@ FinishPage::FinishPage(HandEyeWorkbench& workbench, QWidget* parent)
 }
 
 FinishPage::~FinishPage() = default;
+
+void FinishPage::renew()
+{
+  if (isVisible())
+  {
+    enter();
+  }
+}
 
 void FinishPage::enter()
 {
@@ -70,20 +84,10 @@ void FinishPage::enter()
   if (ui_->exports->folder().isEmpty() || exportsOf_ != workbench_.sessionFolder())
   {
     exportsOf_ = workbench_.sessionFolder();
-    const QString report = exportsOf_ + QStringLiteral("/export/report/report.html");
-    showReport(QFileInfo::exists(report) ? report : QString());
     ui_->exports->setFolder(workbench_.sessionFolder() + QStringLiteral("/export"));
   }
   const bool isValidated = workbench_.validation() && workbench_.validation()->isUsable();
   ui_->exports->setReportEnabled(isValidated, isValidated ? QString() : tr("There is no validation yet: see the page Validation."));
-}
-
-/// Where it is seen without scrolling; nothing: there is none.
-void FinishPage::showReport(const QString& path)
-{
-  report_ = path;
-  ui_->reportLabel->setVisible(!path.isEmpty());
-  ui_->reportLabel->setText(tr("Report of the validation: %1").arg(linkTo(path, QFileInfo(path).fileName())));
 }
 
 /// With its colour: a label does not look at the palette's again when that changes.
@@ -99,7 +103,10 @@ void FinishPage::refresh()
   ui_->sessionLabel->setText(folder.isEmpty()
       ? tr("No session is open.")
       : tr("Everything is stored in %1; nothing needs to be saved.").arg(linkTo(folder, folder)));
-  showReport(report_);
+  // Where it is seen without scrolling.
+  const QString report = workbench_.reportFile();
+  ui_->reportLabel->setVisible(!report.isEmpty());
+  ui_->reportLabel->setText(tr("Report of the validation: %1").arg(linkTo(report, QFileInfo(report).fileName())));
   QStringList lines;
   for (const WizardStep step : { WizardStep::Stylus, WizardStep::Capture, WizardStep::Validation, WizardStep::Overlay })
   {

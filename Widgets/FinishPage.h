@@ -27,11 +27,10 @@ public:
   void refresh() override;
 
 private:
-  void showReport(const QString& path);
+  void renew();
   QString linkTo(const QString& path, const QString& words) const;
 
   std::unique_ptr<Ui::FinishPage> ui_;
-  QString report_;     ///< its file; empty while there is none
   QString exportsOf_;  ///< the session whose folder was offered
 };
 

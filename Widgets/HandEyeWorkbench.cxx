@@ -124,6 +124,15 @@ void HandEyeWorkbench::connectTasks()
       emit stateChanged();
     });
   connect(capture_, &CaptureTask::opened, this, &HandEyeWorkbench::takeDocuments);
+  connect(capture_, &CaptureTask::notOpened, this, &HandEyeWorkbench::openAnother);
+  connect(validationCapture_, &CaptureTask::notOpened, this,
+    [this](const QString& message)
+    {
+      if (capture_->isOpen())
+      {
+        refuse(WizardStep::Validation, message);
+      }
+    });
   connect(capture_, &CaptureTask::failed, this, [this](const QString& message) { refuse(WizardStep::Capture, message); });
   connect(
     validationCapture_, &CaptureTask::failed, this, [this](const QString& message) { refuse(WizardStep::Validation, message); });

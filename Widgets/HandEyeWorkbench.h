@@ -16,6 +16,7 @@
 #include "OverlayMesh.h"
 #include "OverlayPose.h"
 #include "PivotTask.h"
+#include "SessionDocuments.h"
 #include "SpinTask.h"
 #include "TouchTask.h"
 #include "ValidationStep.h"
@@ -173,6 +174,8 @@ public:
   double enoughPx() const { return enoughPx_; }
   bool isEnough() const;
   void writeReport(const QString& folder);
+  /// The report of the validation as it is now; empty if there is none.
+  QString reportFile() const;
   /// The calibration, as it is now, was exported to a folder.
   void setExported(const QString& folder);
   /// Where the calibration, as it is now, was exported to; empty: it was not.
@@ -207,7 +210,9 @@ public:
   /// The model that comes with the program, and its landmarks; empty if it was not found.
   static QString ownModel();
   static QString ownLandmarks();
-  void registerLandmarks(const std::vector<Eigen::Vector3d>& points_Model, const std::vector<Eigen::Vector3d>& points_Phantom);
+  /// @param touchedModel the mesh whose landmarks they are; empty: the one that is loaded
+  void registerLandmarks(const std::vector<Eigen::Vector3d>& points_Model, const std::vector<Eigen::Vector3d>& points_Phantom,
+    const QString& touchedModel = {});
   /// The landmarks with what was touched, as they come back with the session.
   void storeLandmarks(const nlohmann::json& landmarks);
   const nlohmann::json& storedLandmarks() const { return storedLandmarks_; }
@@ -285,13 +290,17 @@ private:
   QString missingForComparison() const;
   void takeDocuments(const std::map<std::string, nlohmann::json>& documents, const QStringList& problems);
   void restoreFiles(const std::map<std::string, nlohmann::json>& documents);
+  BallDocument ballDocument() const;
   void storeBall();
   void setBallColor(const BallColor& color, bool isLearnt, const QString& message);
   void storeDevices();
   void storeStep();
+  void openAnother(const QString& problem);
   void setSessionUsed();
   void store(const std::string& name, const nlohmann::json& document);
   void setStylus(const Stylus& stylus, bool isNew);
+  /// stylus.json of a tip of which nothing else is known.
+  static nlohmann::json tipDocument(const Eigen::Vector3d& tip_Stylus, const QString& message);
   void takeSpin(const SpinStepResult& result);
   void playRoom();
   void storeModel();
@@ -328,9 +337,10 @@ private:
   int workSession_ = 0;  ///< of the work under way; belongs to the work's thread
   WizardStep step_ = WizardStep::Devices;
   QStringList sessionProblems_;
+  QString openProblem_;  ///< why the session that was wanted is not open; empty once it was said
   bool isSessionUsed_ = false;
-  QString exportedFolder_;
-  Eigen::Isometry3d exported_ = Eigen::Isometry3d::Identity();  ///< markerToCamera as it was exported
+  nlohmann::json report_;                                       ///< where the last one is, and of which errors (px) it is
+  std::optional<ExportDocument> exported_;
   std::optional<WizardStep> storedStep_;
   QString storedComparison_;
   std::optional<Camera> camera_;
@@ -340,7 +350,8 @@ private:
   bool isCalibrationLoaded_ = false;       ///< from a file: there are no samples of it
   std::optional<CalibratedEye> rightEye_;  ///< that came with the file
   std::optional<ValidationStepResult> validation_;
-  double nearestMm_ = 160, furthestMm_ = 420, enoughPx_ = 1.5;
+  static constexpr double DefaultNearestMm = 160, DefaultFurthestMm = 420, DefaultEnoughPx = 1.5;
+  double nearestMm_ = DefaultNearestMm, furthestMm_ = DefaultFurthestMm, enoughPx_ = DefaultEnoughPx;
   bool isCalibrationAsked_ = false, isCalibrating_ = false, isCalibrationStale_ = false;
   OverlayMesh model_;
   QString modelPath_, wantedModelPath_, registeredModelPath_;

@@ -125,9 +125,9 @@ void HandEyeWorkbench::spinStylus()
 /// The same entries that `handeye spin` adds to a stylus' file.
 void HandEyeWorkbench::takeSpin(const SpinStepResult& result)
 {
-  if (!stylus_)
+  if (!stylus_ || !result.calibration.stylusTipToStylus.translation().isApprox(stylus_->tip_Stylus, 1e-9))
   {
-    return;
+    return;  // of a stylus that is not in use any more
   }
   Stylus spun = *stylus_;
   spun.document = spinJson(result, spun.document);
@@ -179,13 +179,22 @@ void HandEyeWorkbench::takeStylusTip(const Eigen::Vector3d& tip_Stylus, const QS
                      .arg(tip_Stylus.y(), 0, 'f', 2)
                      .arg(tip_Stylus.z(), 0, 'f', 2)
                      .arg(origin);
-  stylus.document = { { "schema", "handeye-stylus/1" }, { "status", "ok" }, { "tip_Stylus_Mm", toJson(tip_Stylus) },
-    { "message", stylus.message.toStdString() } };
+  stylus.document = tipDocument(tip_Stylus, stylus.message);
   setStylus(stylus, true);
+}
+
+nlohmann::json HandEyeWorkbench::tipDocument(const Eigen::Vector3d& tip_Stylus, const QString& message)
+{
+  return { { "schema", "handeye-stylus/1" }, { "status", "ok" }, { "tip_Stylus_Mm", toJson(tip_Stylus) },
+    { "message", message.toStdString() } };
 }
 
 void HandEyeWorkbench::setStylus(const Stylus& stylus, bool isNew)
 {
+  if (stylus_ && stylus_->tip_Stylus != stylus.tip_Stylus)
+  {
+    spin_->cancel();
+  }
   stylus_ = stylus;
   if (isNew)
   {
@@ -253,7 +262,7 @@ void HandEyeWorkbench::takeFormerBallColor()
   if (const std::optional<FormerColor> former = std::exchange(ball_.former, std::nullopt))
   {
     setBallColor(
-      former->color, former->isLearnt, tr("the colour of before the last click: %1").arg(nameOf(former->color, former->isLearnt)));
+      former->color, former->isLearnt, tr("the colour of before: %1").arg(nameOf(former->color, former->isLearnt)));
   }
 }
 

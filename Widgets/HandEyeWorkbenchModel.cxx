@@ -106,19 +106,19 @@ void HandEyeWorkbench::keepRegistration()
 }
 
 void HandEyeWorkbench::registerLandmarks(
-  const std::vector<Eigen::Vector3d>& points_Model, const std::vector<Eigen::Vector3d>& points_Phantom)
+  const std::vector<Eigen::Vector3d>& points_Model, const std::vector<Eigen::Vector3d>& points_Phantom, const QString& touchedModel)
 {
   beside(WizardStep::Overlay,
-    [this, points_Model, points_Phantom, touchedModel = modelPath_]
+    [this, points_Model, points_Phantom, ofModel = touchedModel.isEmpty() ? modelPath_ : touchedModel]
     {
       const LandmarkRegistrationResult result = handeye::registerLandmarks(points_Model, points_Phantom);
       tell(
-        [this, result, touchedModel]
+        [this, result, ofModel]
         {
           registration_ = result;
           // One that was refused does not come back with the session.
           store("phantom", result.isUsable() ? phantomJson(result) : nlohmann::json());
-          setModelToPhantom(result.isUsable() ? std::optional(result.modelToPhantom) : std::nullopt, touchedModel);
+          setModelToPhantom(result.isUsable() ? std::optional(result.modelToPhantom) : std::nullopt, ofModel);
         });
     });
 }

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HandEyeWorkbench.h"
 
-#include "JsonEigen.h"
 #include "PaintedPlot.h"
 #include "ResultFiles.h"
 #include "ValidationReport.h"
 #include "WorkThread.h"
 
+#include <QFileInfo>
+
+#include <cmath>
 #include <utility>
 
 namespace handeye
@@ -125,8 +127,9 @@ void HandEyeWorkbench::loadCalibration(const QString& path)
           store("calibration", document);
           ball_.radiusMm = stored.ballRadiusMm;
           storeBall();
-          stylus_ =
-            Stylus{ stored.tip_Stylus, Eigen::Matrix3d::Zero(), 0, tr("The tip is that of the calibration %1").arg(path), {} };
+          const QString ofThat = tr("The tip is that of the calibration %1").arg(path);
+          spin_->cancel();
+          stylus_ = Stylus{ stored.tip_Stylus, Eigen::Matrix3d::Zero(), 0, ofThat, tipDocument(stored.tip_Stylus, ofThat) };
           emit stylusChanged();
           emit ballChanged();
           setCamera({ stored.camera, stored.markerToCamera, "calibration.json", {} }, path);
@@ -188,20 +191,40 @@ void HandEyeWorkbench::writeReport(const QString& folder)
   }
   const std::filesystem::path recording = validationCapture_->folder().toStdString();
   beside(WizardStep::Finish,
-    [this, folder, recording, validation = *validation_]
+    [this, folder, recording, validation = *validation_, thread = work_.get()]
     {
-      writeValidationReport(folder.toStdString(), validation, io::Recording::open(recording), paintPlot);
-      tell([this, folder] { emit reportWritten(folder + QStringLiteral("/report.html")); });
+      writeValidationReport(
+        folder.toStdString(), validation, io::Recording::open(recording), paintUnless([thread] { return thread->isEnding(); }));
+      tell(
+        [this, file = folder + QStringLiteral("/report.html"), errors = validation.projectionErrorPx]
+        {
+          report_ = { { "file", file.toStdString() }, { "meanPx", errors.mean }, { "count", errors.count } };
+          store("report", report_);
+          emit reportWritten(file);
+        });
     });
+}
+
+QString HandEyeWorkbench::reportFile() const
+{
+  constexpr double SamePx = 1e-6;
+  if (!validation_ || !report_.is_object() || report_.value("count", nlohmann::json()) != validation_->projectionErrorPx.count)
+  {
+    return {};
+  }
+  const nlohmann::json file = report_.value("file", nlohmann::json()), meanPx = report_.value("meanPx", nlohmann::json());
+  const bool isIts =
+    file.is_string() && meanPx.is_number() && std::abs(meanPx.get<double>() - validation_->projectionErrorPx.mean) < SamePx;
+  const QString path = isIts ? QString::fromStdString(file.get<std::string>()) : QString();
+  return QFileInfo::exists(path) ? path : QString();
 }
 
 void HandEyeWorkbench::setExported(const QString& folder)
 {
   if (calibration_ && calibration_->isUsable())
   {
-    exportedFolder_ = folder;
-    exported_ = calibration_->calibration.markerToCamera;
-    store("export", { { "folder", folder.toStdString() }, { "markerToCamera", toJson(exported_) } });
+    exported_ = ExportDocument{ folder, calibration_->calibration.markerToCamera };
+    store("export", exportJson(*exported_));
     emit stateChanged();
   }
 }
@@ -210,9 +233,9 @@ QString HandEyeWorkbench::exportedFolder() const
 {
   // Far below what any tracker or program tells apart, and far above what a calibration made anew differs by.
   constexpr double SamePose = 1e-6;
-  const bool isSame = calibration_ && calibration_->isUsable() &&
-    (calibration_->calibration.markerToCamera.matrix() - exported_.matrix()).cwiseAbs().maxCoeff() < SamePose;
-  return isSame ? exportedFolder_ : QString();
+  const bool isSame = exported_ && calibration_ && calibration_->isUsable() &&
+    (calibration_->calibration.markerToCamera.matrix() - exported_->markerToCamera.matrix()).cwiseAbs().maxCoeff() < SamePose;
+  return isSame ? exported_->folder : QString();
 }
 
 }  // namespace handeye

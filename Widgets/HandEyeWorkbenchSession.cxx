@@ -3,6 +3,7 @@
 #include "HandEyeWorkbench.h"
 
 #include "ResultFiles.h"
+#include "SessionDocuments.h"
 #include "SessionMemory.h"
 #include "WorkThread.h"
 
@@ -12,9 +13,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <set>
-#include <vector>
+#include <utility>
 
 namespace handeye
 {
@@ -24,18 +24,6 @@ namespace
 
 using nlohmann::json;
 
-double number(const json& object, const char* key, double otherwise)
-{
-  const json value = object.is_object() ? object.value(key, json()) : json();
-  return value.is_number() ? value.get<double>() : otherwise;
-}
-
-QString text(const json& object, const char* key, const QString& otherwise)
-{
-  const json value = object.is_object() ? object.value(key, json()) : json();
-  return value.is_string() ? QString::fromStdString(value.get<std::string>()) : otherwise;
-}
-
 /// Of the steps in the session's files, in the wizard's order.
 constexpr std::array<const char*, WizardStepCount> StepWords = { "devices", "camera", "stylus", "ball", "capture", "validation",
   "comparison", "overlay", "finish" };
@@ -44,26 +32,6 @@ std::optional<WizardStep> stepOf(const std::string& word)
 {
   const auto found = std::find(StepWords.begin(), StepWords.end(), word);
   return found == StepWords.end() ? std::nullopt : std::optional(WizardStep(found - StepWords.begin()));
-}
-
-/// Of a matrix, row by row; empty if it is none.
-std::vector<double> numbersOf(const json& rows)
-{
-  std::vector<double> numbers;
-  for (const json& row : rows.is_array() ? rows : json::array())
-  {
-    for (const json& each : row.is_array() ? row : json::array())
-    {
-      numbers.push_back(each.is_number() ? each.get<double>() : std::nan(""));
-    }
-  }
-  return numbers;
-}
-
-json entry(const std::map<std::string, json>& documents, const char* name)
-{
-  const auto found = documents.find(name);
-  return found == documents.end() || !found->second.is_object() ? json() : found->second;
 }
 
 }  // namespace
@@ -102,10 +70,17 @@ void HandEyeWorkbench::openSession(const QString& folder)
   storedComparison_.clear();
   sessionProblems_.clear();
   isSessionUsed_ = false;
-  exportedFolder_.clear();
+  exported_.reset();
+  report_ = {};
   storedStep_.reset();
+  nearestMm_ = DefaultNearestMm;
+  furthestMm_ = DefaultFurthestMm;
+  enoughPx_ = DefaultEnoughPx;
   pivot_->forget();
   spin_->cancel();
+  latency_->cancel();
+  capture_->setHandsFree(false);
+  validationCapture_->setHandsFree(false);
   emit resultsForgotten();
   emit modelChanged();
   emit registrationChanged();
@@ -115,6 +90,18 @@ void HandEyeWorkbench::openSession(const QString& folder)
   QDir().mkpath(folder);
   capture_->openFolder(folder);
   validationCapture_->openFolder(folder + QStringLiteral("/validation"));
+}
+
+/// What is done from now on is stored, in a new session; why not in the one that was wanted, is said when it is open.
+void HandEyeWorkbench::openAnother(const QString& problem)
+{
+  if (openProblem_.isEmpty())
+  {
+    openProblem_ = problem;
+    openSession(newSessionFolder());
+    return;
+  }
+  refuse(WizardStep::Devices, std::exchange(openProblem_, {}));
 }
 
 QString HandEyeWorkbench::documentPath(const QString& name) const
@@ -158,105 +145,58 @@ void HandEyeWorkbench::storeStep()
   }
 }
 
+BallDocument HandEyeWorkbench::ballDocument() const
+{
+  return { ball_.radiusMm, ball_.isColorLearnt, ball_.message, ball_.color, nearestMm_, furthestMm_, enoughPx_ };
+}
+
 void HandEyeWorkbench::storeBall()
 {
-  const BallColor& color = ball_.color;
-  store("ball",
-    { { "radiusMm", ball_.radiusMm }, { "isColorLearnt", ball_.isColorLearnt }, { "message", ball_.message.toStdString() },
-      { "hueDeg", color.hueDeg }, { "hueToleranceDeg", color.hueToleranceDeg }, { "minimumSaturation", color.minimumSaturation },
-      { "minimumValue", color.minimumValue }, { "minimumChroma", color.minimumChroma },
-      { "minimumMedianSaturation", color.minimumMedianSaturation }, { "nearestMm", nearestMm_ }, { "furthestMm", furthestMm_ },
-      { "enoughPx", enoughPx_ } });
+  store("ball", ballJson(ballDocument()));
 }
 
 void HandEyeWorkbench::storeDevices()
 {
-  const DeviceSetup& setup = devices_->setup();
-  json servers = json::array();
-  for (const QString& server : setup.servers)
-  {
-    servers.push_back(server.toStdString());
-  }
-  store("devices",
-    { { "kind", int(setup.kind) }, { "servers", servers }, { "camera", setup.camera.toStdString() },
-      { "recording", setup.recording.toStdString() }, { "stylusToTracker", setup.stylusToTracker.toStdString() },
-      { "markerToTracker", setup.markerToTracker.toStdString() }, { "phantomToTracker", setup.phantomToTracker.toStdString() },
-      { "image", setup.image.toStdString() }, { "rightImage", setup.rightImage.toStdString() },
-      { "latencySec", setup.latencySec } });
+  store("devices", devicesJson(devices_->setup()));
 }
 
 /// What a session holds becomes the state; a document that cannot be read is a problem, and the rest comes back.
 void HandEyeWorkbench::takeDocuments(const std::map<std::string, json>& documents, const QStringList& problems)
 {
   sessionProblems_ = problems;
-  storedComparison_ = text(entry(documents, "comparison"), "message", {});
-  const json ball = entry(documents, "ball");
-  const auto positive = [&](const char* key, double otherwise)
-  {
-    const double value = number(ball, key, otherwise);
-    return value > 0 && std::isfinite(value) ? value : otherwise;
-  };
-  ball_.radiusMm = positive("radiusMm", ball_.radiusMm);
-  ball_.isColorLearnt = ball.is_object() && ball.value("isColorLearnt", json()) == json(true);
-  ball_.message = text(ball, "message", {});
-  BallColor color;
-  color.hueDeg = number(ball, "hueDeg", color.hueDeg);
-  color.hueToleranceDeg = number(ball, "hueToleranceDeg", color.hueToleranceDeg);
-  color.minimumSaturation = number(ball, "minimumSaturation", color.minimumSaturation);
-  color.minimumValue = number(ball, "minimumValue", color.minimumValue);
-  color.minimumChroma = number(ball, "minimumChroma", color.minimumChroma);
-  color.minimumMedianSaturation = number(ball, "minimumMedianSaturation", color.minimumMedianSaturation);
-  ball_.color = color;
-  const double nearestMm = positive("nearestMm", nearestMm_), furthestMm = positive("furthestMm", furthestMm_);
-  if (nearestMm < furthestMm)
-  {
-    nearestMm_ = nearestMm;
-    furthestMm_ = furthestMm;
-  }
-  enoughPx_ = positive("enoughPx", enoughPx_);
-  const json devices = entry(documents, "devices");
-  if (devices.is_object() && !devices_->isConnected())
-  {
-    DeviceSetup setup = devices_->setup();
-    const int kind = int(number(devices, "kind", double(setup.kind)));
-    setup.kind = kind >= 0 && kind <= int(DeviceSetup::Kind::Recording) ? DeviceSetup::Kind(kind) : setup.kind;
-    const json servers = devices.value("servers", json());
-    setup.servers.clear();
-    for (const json& server : servers.is_array() ? servers : json::array())
-    {
-      setup.servers << (server.is_string() ? QString::fromStdString(server.get<std::string>()) : QString());
-    }
-    setup.servers.removeAll({});
-    setup.camera = text(devices, "camera", {});
-    setup.recording = text(devices, "recording", {});
-    setup.stylusToTracker = text(devices, "stylusToTracker", setup.stylusToTracker);
-    setup.markerToTracker = text(devices, "markerToTracker", setup.markerToTracker);
-    setup.phantomToTracker = text(devices, "phantomToTracker", setup.phantomToTracker);
-    setup.image = text(devices, "image", setup.image);
-    setup.rightImage = text(devices, "rightImage", setup.rightImage);
-    devices_->prepare(setup);
-  }
+  storedComparison_ = textOf(entryOf(documents, "comparison"), "message", {});
+  const BallDocument ball = ballOf(entryOf(documents, "ball"), ballDocument());
+  ball_.radiusMm = ball.radiusMm;
+  ball_.isColorLearnt = ball.isColorLearnt;
+  ball_.message = ball.message;
+  ball_.color = ball.color;
+  nearestMm_ = ball.nearestMm;
+  furthestMm_ = ball.furthestMm;
+  enoughPx_ = ball.enoughPx;
+  const DeviceSetup setup = devicesOf(entryOf(documents, "devices"), devices_->setup());
+  devices_->prepare(setup);
   // It belongs to the samples as well, whatever is connected.
-  devices_->setLatency(number(devices, "latencySec", devices_->setup().latencySec));
-  if (const json exported = entry(documents, "export"); exported.is_object())
-  {
-    const std::vector<double> numbers = numbersOf(exported.value("markerToCamera", json()));
-    if (numbers.size() == 16)
-    {
-      exportedFolder_ = text(exported, "folder", {});
-      exported_.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
-    }
-  }
-  storedLandmarks_ = entry(documents, "landmarks");
-  storedStep_ = stepOf(text(entry(documents, "wizard"), "step", {}).toStdString());
+  devices_->setLatency(setup.latencySec);
+  exported_ = exportOf(entryOf(documents, "export"));
+  storedLandmarks_ = entryOf(documents, "landmarks");
+  report_ = entryOf(documents, "report");
+  storedStep_ = stepOf(textOf(entryOf(documents, "wizard"), "step", {}).toStdString());
   restoreFiles(documents);
-  if (capture_->storedSampleCount() > 0 || entry(documents, "stylus").is_object() || entry(documents, "calibration").is_object() ||
-    entry(documents, "phantom").is_object())
+  if (capture_->storedSampleCount() > 0 || entryOf(documents, "stylus").is_object() ||
+    entryOf(documents, "calibration").is_object() || entryOf(documents, "phantom").is_object())
   {
     setSessionUsed();
   }
   emit ballChanged();
+  if (!openProblem_.isEmpty())
+  {
+    storedStep_ = WizardStep::Devices;
+  }
   emit sessionOpened();
+  if (!openProblem_.isEmpty())
+  {
+    refuse(WizardStep::Devices, tr("%1. A new session was begun instead.").arg(std::exchange(openProblem_, {})));
+  }
   emit happened(tr("session %1").arg(capture_->folder()));
   emit stateChanged();
 }
@@ -264,11 +204,11 @@ void HandEyeWorkbench::takeDocuments(const std::map<std::string, json>& document
 /// Results by the readers of their files, so that a damaged one is refused like any other.
 void HandEyeWorkbench::restoreFiles(const std::map<std::string, json>& documents)
 {
-  const json camera = entry(documents, "camera");
+  const json camera = entryOf(documents, "camera");
   if (camera.is_object())
   {
     beside(WizardStep::Camera,
-      [this, path = documentPath(QStringLiteral("camera")), origin = text(camera, "origin", tr("the session"))]
+      [this, path = documentPath(QStringLiteral("camera")), origin = textOf(camera, "origin", tr("the session"))]
       {
         const io::CameraFile file = io::readCameraFile(path.toStdString());
         tell(
@@ -284,28 +224,28 @@ void HandEyeWorkbench::restoreFiles(const std::map<std::string, json>& documents
   {
     takeRoomCamera();  // the room that is connected shows its pictures in this session, too
   }
-  if (const json stylus = entry(documents, "stylus"); stylus.is_object())
+  if (const json stylus = entryOf(documents, "stylus"); stylus.is_object())
   {
     beside(WizardStep::Stylus,
       [this, stylus, path = std::filesystem::path(documentPath(QStringLiteral("stylus")).toStdString())]
       {
-        const Stylus restored{ readStylusTip(path), readStylusTipCovariance(path), number(stylus, "rmsMm", 0),
-          text(stylus, "message", {}), stylus, readStylusTipFrame(path) };
+        const Stylus restored{ readStylusTip(path), readStylusTipCovariance(path), numberOf(stylus, "rmsMm", 0),
+          textOf(stylus, "message", {}), stylus, readStylusTipFrame(path) };
         tell([this, restored] { setStylus(restored, false); });
       });
   }
-  if (entry(documents, "calibration").is_object() && QDir(capture_->folder() + QStringLiteral("/samples")).isEmpty())
+  if (entryOf(documents, "calibration").is_object() && QDir(capture_->folder() + QStringLiteral("/samples")).isEmpty())
   {
     loadCalibration(documentPath(QStringLiteral("calibration")));
   }
-  const json model = entry(documents, "model");
+  const json model = entryOf(documents, "model");
   if (model.is_object())
   {
-    loadModel(text(model, "file", {}));
+    loadModel(textOf(model, "file", {}));
   }
-  if (entry(documents, "phantom").is_object())
+  if (entryOf(documents, "phantom").is_object())
   {
-    loadRegistration(documentPath(QStringLiteral("phantom")), model.is_object() ? text(model, "registeredFile", {}) : QString());
+    loadRegistration(documentPath(QStringLiteral("phantom")), model.is_object() ? textOf(model, "registeredFile", {}) : QString());
   }
 }
 

@@ -41,9 +41,9 @@ bool LandmarkPanel::loadModelLandmarks(const QString& path)
   {
     const std::filesystem::path file = path.toStdString();
     const std::vector<Eigen::Vector3d> points = readModelLandmarks(file);
-    if (points.size() < std::size_t(Private::FewestLandmarks))
+    if (points.size() < std::size_t(FewestLandmarks))
     {
-      throw io::FileError(file, "at least " + std::to_string(Private::FewestLandmarks) + " landmarks are expected");
+      throw io::FileError(file, "at least " + std::to_string(FewestLandmarks) + " landmarks are expected");
     }
     const std::vector<std::string> names = readLandmarkNames(file);
     QVector<Landmark> landmarks;
@@ -58,7 +58,6 @@ bool LandmarkPanel::loadModelLandmarks(const QString& path)
     {
       d->remember(tr("load landmarks"));
     }
-    d->fileError.clear();
     d->ui.fileLabel->setText(
       QFileInfo(path).fileName() + QStringLiteral(": ") + counted(landmarks.size(), tr("1 landmark"), tr("%1 landmarks")));
     d->ui.fileLabel->setToolTip(path);
@@ -77,6 +76,10 @@ void LandmarkPanel::setLandmarks(const QVector<Landmark>& landmarks)
 {
   d->history.clear();
   d->lastTaken_Phantom.reset();
+  d->ui.fileLabel->setText(landmarks.isEmpty()
+      ? tr("No landmarks loaded")
+      : counted(landmarks.size(), tr("1 landmark of the session"), tr("%1 landmarks of the session")));
+  d->ui.fileLabel->setToolTip(QString());
   d->landmarks = landmarks;
   d->replace(landmarks, landmarks.isEmpty() ? -1 : d->nextUntouched(-1));
 }
@@ -166,7 +169,6 @@ void LandmarkPanel::setTouched(const Eigen::Vector3d& tip_Phantom)
   d->landmarks[before].skipped = false;
   d->lastTaken_Phantom = tip_Phantom;
   d->current = d->nextUntouched(before);
-  d->fileError.clear();
   d->changed();
   if (d->current != before)
   {
@@ -240,7 +242,7 @@ void LandmarkPanel::undo()
   {
     const Private::Before before = d->history.takeLast();
     d->ui.fileLabel->setText(before.fileWords);
-    d->fileError.clear();
+    d->ui.fileLabel->setToolTip(before.filePath);
     d->replace(before.landmarks, before.current);
   }
 }

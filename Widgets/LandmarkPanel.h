@@ -28,6 +28,9 @@ class LandmarkPanel : public QWidget
   Q_OBJECT
 
 public:
+  /// So many have to be touched for a registration.
+  static constexpr int FewestLandmarks = 3;
+
   struct Landmark
   {
     QString name;
@@ -48,7 +51,7 @@ public:
   /// Loads the model's landmarks; what was touched is taken away, and undo() brings it back. @return false: the reason is shown in
   /// the panel
   bool loadModelLandmarks(const QString& path);
-  /// The same without a way back: another session's, or another mesh's.
+  /// Landmarks of a session, with what was touched of them, or none; without a way back.
   void setLandmarks(const QVector<Landmark>& landmarks);
   void forgetTouched();
   const QVector<Landmark>& landmarks() const;

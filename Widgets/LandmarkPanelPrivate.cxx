@@ -51,10 +51,11 @@ void LandmarkPanel::Private::setUpUi()
   ui.clearButton->setIcon(icon(QStringLiteral("delete")));
 }
 
-void LandmarkPanel::Private::addShortcut(const QKeySequence& key, void (LandmarkPanel::*slot)())
+void LandmarkPanel::Private::addShortcut(
+  const QKeySequence& key, QWidget* where, Qt::ShortcutContext context, void (LandmarkPanel::*slot)())
 {
-  auto* shortcut = new QShortcut(key, ui.table);
-  shortcut->setContext(Qt::WidgetShortcut);
+  auto* shortcut = new QShortcut(key, where);
+  shortcut->setContext(context);
   connect(shortcut, &QShortcut::activated, &q, slot);
 }
 
@@ -87,7 +88,12 @@ void LandmarkPanel::Private::connectButtons()
   connect(ui.takeBackButton, &QPushButton::clicked, &q, &LandmarkPanel::takeBackCurrent);
   connect(ui.undoButton, &QToolButton::clicked, &q, &LandmarkPanel::undo);
   connect(ui.skipButton, &QPushButton::clicked, &q, &LandmarkPanel::skipCurrent);
-  connect(ui.clearButton, &QPushButton::clicked, &q, &LandmarkPanel::clearTouched);
+  connect(ui.clearButton, &QPushButton::clicked, &q,
+    [this]
+    {
+      q.clearTouched();
+      ui.table->setFocus();  // the button is disabled now: the keyboard stays in the panel, where Ctrl+Z undoes this
+    });
   connect(ui.table, &QTableWidget::currentCellChanged, &q, [this](int row) { q.setCurrentLandmark(row); });
   connect(ui.saveButton, &QPushButton::clicked, &q,
     [this]
@@ -109,9 +115,10 @@ void LandmarkPanel::Private::connectButtons()
         emit q.loadRequested(path);
       }
     });
-  this->addShortcut(Qt::Key_Backspace, &LandmarkPanel::takeBackCurrent);
-  this->addShortcut(Qt::Key_Delete, &LandmarkPanel::takeBackCurrent);
-  this->addShortcut(QKeySequence::Undo, &LandmarkPanel::undo);
+  this->addShortcut(Qt::Key_Backspace, ui.table, Qt::WidgetShortcut, &LandmarkPanel::takeBackCurrent);
+  this->addShortcut(Qt::Key_Delete, ui.table, Qt::WidgetShortcut, &LandmarkPanel::takeBackCurrent);
+  // Wherever the last click has left the keyboard.
+  this->addShortcut(QKeySequence::Undo, &q, Qt::WidgetWithChildrenShortcut, &LandmarkPanel::undo);
   auto* touch = new QShortcut(Qt::Key_Space, ui.table);
   touch->setContext(Qt::WidgetShortcut);
   connect(touch, &QShortcut::activated, ui.touchButton, [this] { ui.touchButton->click(); });
@@ -347,7 +354,7 @@ int LandmarkPanel::Private::nextUntouched(int after) const
 void LandmarkPanel::Private::remember(const QString& what)
 {
   constexpr int MostSteps = 200;
-  history.append({ what, landmarks, current, ui.fileLabel->text() });
+  history.append({ what, landmarks, current, ui.fileLabel->text(), ui.fileLabel->toolTip() });
   if (history.size() > MostSteps)
   {
     history.removeFirst();
@@ -369,10 +376,11 @@ void LandmarkPanel::Private::replace(const QVector<Landmark>& with, int newCurre
   emit q.currentLandmarkChanged(current);
 }
 
-/// The points are others: the result is of the past.
+/// The points are others: the result is of the past, and so is what was said of a file.
 void LandmarkPanel::Private::changed()
 {
   result.reset();
+  fileError.clear();
   this->update();
   emit q.pairsChanged();
 }

@@ -14,8 +14,6 @@ namespace handeye
 class LandmarkPanel::Private
 {
 public:
-  static constexpr int FewestLandmarks = 3;
-
   explicit Private(LandmarkPanel& panel)
     : q(panel)
   {
@@ -23,7 +21,7 @@ public:
 
   void setUpUi();
   void connectButtons();
-  void addShortcut(const QKeySequence& key, void (LandmarkPanel::*slot)());
+  void addShortcut(const QKeySequence& key, QWidget* where, Qt::ShortcutContext context, void (LandmarkPanel::*slot)());
   void update();
   void updateRow(int row, const QVector<int>& paired);
   void fitTable();
@@ -46,7 +44,7 @@ public:
     QString what;
     QVector<Landmark> landmarks;
     int current = -1;
-    QString fileWords;
+    QString fileWords, filePath;
   };
 
   QVector<Landmark> landmarks;
@@ -54,7 +52,7 @@ public:
   int current = -1;
   bool tipAvailable = false;
   QString tipReason;
-  QString fileError;
+  QString fileError;  ///< of the last file, until something else happens
   std::optional<LandmarkRegistrationResult> result;
   std::optional<Eigen::Vector3d> lastTaken_Phantom;
 };

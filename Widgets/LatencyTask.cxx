@@ -29,11 +29,9 @@ void LatencyTask::start(const CameraModel& camera, const Eigen::Vector3d& tip_St
   options.maximumRepeatSec = 0;
   {
     const std::lock_guard lock(mutex_);
-    collection_ = Collection{ markerToTracker.toStdString(), stylusToTracker.toStdString(), PoseTrack(options), PoseTrack(options),
-      {}, seconds, -1, ++run_ };
+    collection_ = Collection{ camera, tip_Stylus, markerToTracker.toStdString(), stylusToTracker.toStdString(), PoseTrack(options),
+      PoseTrack(options), {}, seconds, -1, ++run_ };
   }
-  camera_ = camera;
-  tip_Stylus_ = tip_Stylus;
   isRunning_ = true;
   silence_.start();
   emit runningChanged();
@@ -45,11 +43,18 @@ QString LatencyTask::words(const TemporalCalibrationResult& result)
   constexpr double GoodMm = 0.3;        // a tracker's own noise at the tip
   const auto inMs = [](double seconds) { return withUnit(1000 * seconds, 1, tr("ms")); };
   const double latencySec = result.latencySec, offMm = FastMmPerSec * result.sigmaSec;
-  const bool isInTime = std::abs(latencySec) < 2 * result.sigmaSec;
-  const QString what = isInTime ? tr("Video and tracker are in time: %1 apart").arg(inMs(std::abs(latencySec)))
-    : latencySec < 0            ? tr("The video is %1 later than the tracker").arg(inMs(-latencySec))
-                                : tr("The tracker is %1 later than the video").arg(inMs(latencySec));
   const QString exactness = QChar(0x00b1) + QString(QChar(0x00a0)) + inMs(result.sigmaSec);
+  const bool isNoise = std::abs(latencySec) < 2 * result.sigmaSec;
+  if (isNoise && FastMmPerSec * std::abs(latencySec) > GoodMm)
+  {
+    return tr(
+      "No difference between video and tracker could be told from the noise: %1 %2. That is taken into account from now on, but "
+      "measure again with wider, brisker swings.")
+      .arg(inMs(std::abs(latencySec)), exactness);
+  }
+  const QString what = isNoise ? tr("Video and tracker are in time: %1 apart").arg(inMs(std::abs(latencySec)))
+    : latencySec < 0           ? tr("The video is %1 later than the tracker").arg(inMs(-latencySec))
+                               : tr("The tracker is %1 later than the video").arg(inMs(latencySec));
   const QString off = withUnit(offMm, 1, tr("mm"));
   const QString verdict = offMm <= GoodMm
     ? tr("Good: with a brisk motion (%1 mm/s) that leaves %2.").arg(FastMmPerSec, 0, 'f', 0).arg(off)
@@ -100,6 +105,7 @@ void LatencyTask::onFrame(const devices::PairedFrame& frame, const std::optional
 {
   bool isDone = false;
   double share = 0;
+  int run = 0;
   {
     const std::lock_guard lock(mutex_);
     if (!collection_)
@@ -114,14 +120,15 @@ void LatencyTask::onFrame(const devices::PairedFrame& frame, const std::optional
     }
     share = std::clamp((timeSec - collection_->beginSec) / collection_->seconds, 0.0, 1.0);
     isDone = share >= 1;
+    run = collection_->run;
   }
   QMetaObject::invokeMethod(
     this,
-    [this, share, isDone]
+    [this, share, isDone, run]
     {
-      if (!isRunning_)
+      if (!isRunning_ || run != run_)
       {
-        return;  // cancelled meanwhile
+        return;  // cancelled meanwhile, or measured again
       }
       isDone ? silence_.stop() : silence_.start();
       emit progressed(share);
@@ -129,26 +136,27 @@ void LatencyTask::onFrame(const devices::PairedFrame& frame, const std::optional
     Qt::QueuedConnection);
   if (isDone)
   {
-    evaluate();
+    evaluate(run);
   }
 }
 
 /// In the work's thread.
-void LatencyTask::evaluate()
+void LatencyTask::evaluate(int run)
 {
   std::optional<Collection> collection;
   {
     const std::lock_guard lock(mutex_);
+    if (!collection_ || collection_->run != run)
+    {
+      return;  // cancelled at this moment, or measured again
+    }
     collection = std::exchange(collection_, std::nullopt);
-  }
-  if (!collection)
-  {
-    return;  // cancelled at this moment
   }
   TemporalCalibrationResult result;
   try
   {
-    result = calibrateLatency(collection->sightings, collection->marker, collection->stylus, tip_Stylus_, *camera_);
+    result =
+      calibrateLatency(collection->sightings, collection->marker, collection->stylus, collection->tip_Stylus, collection->camera);
   }
   catch (const std::exception& error)
   {
@@ -156,7 +164,7 @@ void LatencyTask::evaluate()
   }
   QMetaObject::invokeMethod(
     this,
-    [this, result, run = collection->run]
+    [this, result, run]
     {
       if (!isRunning_ || run != run_)
       {

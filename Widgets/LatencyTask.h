@@ -42,7 +42,8 @@ public:
   void cancel();
   bool isRunning() const { return isRunning_; }
 
-  /// A usable result for a person: which of the two is late, by how much, how exact that is, and whether that is good enough.
+  /// A usable result for a person: which of the two is late, by how much, how exact that is, and whether that is good enough. They are
+  /// in time only where a difference as large as the measured one does not matter; that the noise hides it is not enough.
   static QString words(const TemporalCalibrationResult& result);
 
   /// 5 s unless set.
@@ -60,10 +61,12 @@ signals:
 
 private:
   void endInSilence();
-  void evaluate();
+  void evaluate(int run);
 
   struct Collection
   {
+    CameraModel camera;
+    Eigen::Vector3d tip_Stylus = Eigen::Vector3d::Zero();
     std::string markerToTracker, stylusToTracker;
     PoseTrack marker, stylus;
     std::vector<BallSighting> sightings;
@@ -75,9 +78,8 @@ private:
   bool isRunning_ = false;
   int run_ = 0;     ///< counts the starts: what an earlier one found late is nobody's
   QTimer silence_;  ///< runs while frames are waited for
-  std::optional<CameraModel> camera_;
-  Eigen::Vector3d tip_Stylus_ = Eigen::Vector3d::Zero();
-  std::mutex mutex_;
+
+  std::mutex mutex_;  ///< of what follows
   std::optional<Collection> collection_;
 };
 

@@ -24,7 +24,6 @@ namespace handeye
 namespace
 {
 
-constexpr int FewestLandmarks = 3;
 constexpr int TipIntervalMs = 50;  // between two looks at where the stylus' tip is
 
 /// A red disc while it is recorded, a grey ring otherwise.
@@ -82,13 +81,13 @@ OverlayPage::OverlayPage(HandEyeWorkbench& workbench, QWidget* parent)
       workbench_.storeLandmarks(landmarksJson(ui_->landmarks->landmarks(), touchedModel_));
       // Landmarks that were only loaded say nothing against the registration there is.
       const bool wasTouched = workbench_.registration().has_value() || !pairs.landmarks.isEmpty();
-      workbench_.setTouchingAnew(wasTouched && pairs.landmarks.size() < FewestLandmarks);
-      if (pairs.landmarks.size() < FewestLandmarks)
+      workbench_.setTouchingAnew(wasTouched && pairs.landmarks.size() < LandmarkPanel::FewestLandmarks);
+      if (pairs.landmarks.size() < LandmarkPanel::FewestLandmarks)
       {
         ui_->landmarks->setResult({});
         return;
       }
-      workbench_.registerLandmarks(pairs.points_Model, pairs.points_Phantom);
+      workbench_.registerLandmarks(pairs.points_Model, pairs.points_Phantom, touchedModel_);
     });
   connect(
     ui_->landmarks, &LandmarkPanel::loadRequested, &workbench_, [this](const QString& path) { workbench_.loadRegistration(path); });
@@ -135,9 +134,9 @@ void OverlayPage::forgetTouched()
   {
     ui_->landmarks->setLandmarks({});
   }
-  else if (!ui_->landmarks->pairs().landmarks.isEmpty())
+  else
   {
-    ui_->landmarks->forgetTouched();
+    ui_->landmarks->forgetTouched();  // and what could be brought back of it
   }
   touchedModel_.clear();
 }
@@ -154,7 +153,7 @@ void OverlayPage::recallLandmarks()
   touchedModel_ = landmarksModelOf(workbench_.storedLandmarks());
   ui_->landmarks->setLandmarks(landmarks);
   const LandmarkPanel::Pairs pairs = ui_->landmarks->pairs();
-  if (pairs.landmarks.size() >= FewestLandmarks)
+  if (pairs.landmarks.size() >= LandmarkPanel::FewestLandmarks)
   {
     workbench_.recallRegistration(pairs.points_Model, pairs.points_Phantom);
   }
@@ -294,6 +293,10 @@ void OverlayPage::setRecording(const OverlayRecordingState& state)
   ui_->recordLabel->setText((words.value(state.phase) + QLatin1Char(' ') + state.message).trimmed());
   ui_->recordLabel->setToolTip(state.path);
   ui_->recordLabel->setVisible(!ui_->recordLabel->text().isEmpty());
+  if (state.phase == Phase::Failed)
+  {
+    ui_->lookButton->setChecked(true);  // the reason is behind it
+  }
 }
 
 void OverlayPage::showLook()

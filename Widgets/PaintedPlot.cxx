@@ -18,6 +18,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
 namespace handeye
 {
@@ -50,6 +52,18 @@ cv::Mat paintPlot(const report::Plot& plot)
   cv::Mat picture;
   cv::cvtColor(rgb, picture, cv::COLOR_RGB2BGR);
   return picture;
+}
+
+report::PlotDrawer paintUnless(std::function<bool()> isUnwanted)
+{
+  return [isUnwanted = std::move(isUnwanted)](const report::Plot& plot)
+  {
+    if (isUnwanted())
+    {
+      throw std::runtime_error("the report was cancelled");
+    }
+    return paintPlot(plot);
+  };
 }
 
 }  // namespace handeye

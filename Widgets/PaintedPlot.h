@@ -4,6 +4,8 @@
 
 #include "ReportPlot.h"
 
+#include <functional>
+
 namespace handeye
 {
 
@@ -13,5 +15,8 @@ namespace handeye
 /// @return BGR, 8 bits
 /// @throws std::invalid_argument as report::drawPlot()
 [[nodiscard]] cv::Mat paintPlot(const report::Plot& plot);
+
+/// The same for a report that may be unwanted before it is done: nothing more is drawn then (std::runtime_error).
+[[nodiscard]] report::PlotDrawer paintUnless(std::function<bool()> isUnwanted);
 
 }  // namespace handeye

@@ -95,8 +95,8 @@ void PivotTask::finishAs(End end)
       state.coverage = collector->coverage();
       state.predictedTipErrorMm = std::sqrt(result.calibration.tipCovariance.trace());
       state.hasTipMoved = collector->hasTipMoved();
-      state.isExact = end == End::Enough;
-      state.end = end;
+      state.isExact = result.calibration.isUsable() && state.predictedTipErrorMm <= enoughTipErrorMm();
+      state.end = !result.calibration.isUsable() ? End::None : state.isExact ? end : End::ByPerson;
       if (result.calibration.isUsable())
       {
         // What was never kept counts as well.
@@ -116,7 +116,7 @@ void PivotTask::finishAs(End end)
           }
         },
         Qt::QueuedConnection);
-      tell(result);
+      tell(result, run);
     });
 }
 
@@ -124,27 +124,39 @@ void PivotTask::calibrateRecording(const QString& path, const QString& stylusToT
 {
   forget();
   work_.post(
-    [this, file = path.toStdString(), name = stylusToTracker.toStdString()]
+    [this, file = path.toStdString(), name = stylusToTracker.toStdString(), run = run_]
     {
       try
       {
-        tell(pivotFromRecording(io::Recording::open(file), name));
+        tell(pivotFromRecording(io::Recording::open(file), name), run);
       }
       catch (const std::exception& error)
       {
         QMetaObject::invokeMethod(
-          this, [this, message = QString::fromUtf8(error.what())] { emit refused(message); }, Qt::QueuedConnection);
+          this,
+          [this, run, message = QString::fromUtf8(error.what())]
+          {
+            if (run == run_)
+            {
+              emit refused(message);
+            }
+          },
+          Qt::QueuedConnection);
       }
     });
 }
 
-/// From the work's thread.
-void PivotTask::tell(const PivotStepResult& result)
+/// From the work's thread. What is found late, of an earlier pivoting or another session, is nobody's.
+void PivotTask::tell(const PivotStepResult& result, int run)
 {
   QMetaObject::invokeMethod(
     this,
-    [this, result]
+    [this, result, run]
     {
+      if (run != run_)
+      {
+        return;
+      }
       if (result.calibration.isUsable())
       {
         emit calibrated(result);

@@ -80,11 +80,11 @@ signals:
 private:
   void poll();
   void finishAs(End end);
-  void tell(const PivotStepResult& result);
+  void tell(const PivotStepResult& result, int run);
 
   WorkThread& work_;
   bool isCollecting_ = false;
-  int run_ = 0;  ///< counts the starts: what an earlier one found late is not the state of the next
+  int run_ = 0;  ///< counts the starts: what an earlier one found late is nobody's
   State state_;
   QTimer timer_;
 

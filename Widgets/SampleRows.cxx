@@ -34,7 +34,8 @@ SampleRow rowOf(const CaptureSample& sample)
   }
   if (sample.isExcluded)
   {
-    row.status = words("left out");
+    // That it is left out the table says. What the calibration made of it before is not known any more.
+    row.status = captured.isSample() ? QString() : row.status;
     row.level = Level::Info;
   }
   return row;
@@ -115,8 +116,8 @@ QString importedWords(int taken, int refused, const QString& reason)
   if (refused > 0)
   {
     text += QLatin1Char(' ') +
-      (refused == 1 ? words("1 frame was left out: %1").arg(reason)
-                    : words("%1 frames were left out, the first: %2").arg(QString::number(refused), reason));
+      (refused == 1 ? words("1 frame was left out, %1").arg(reason)
+                    : words("%1 frames were left out, the first, %2").arg(QString::number(refused), reason));
   }
   return text;
 }

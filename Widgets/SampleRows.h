@@ -19,7 +19,7 @@ QVector<SampleRow> calibrationRows(
 /// The samples of a validation, with the projection error of each.
 QVector<SampleRow> validationRows(const QMap<int, CaptureSample>& samples, const std::optional<ValidationStepResult>& validation);
 
-/// What came of a recording, in a sentence or two. @param reason why the first of the refused frames was
+/// What came of a recording, in a sentence or two. @param reason which frame was refused first, and why
 QString importedWords(int taken, int refused, const QString& reason);
 
 }  // namespace handeye

@@ -114,7 +114,7 @@ void SampleTable::setResidualTitle(const QString& title)
 void SampleTable::addUndoableSamples(const QVector<int>& ids, const QString& text)
 {
   d->push(
-    text, [this, ids] { emit restoreRequested(ids); }, [this, ids] { emit deleteRequested(ids); });
+    text, [this, ids] { emit restoreRequested(ids); }, [this, ids] { emit deleteRequested(ids); }, true);
 }
 
 void SampleTable::clearHistory()

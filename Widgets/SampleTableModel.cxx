@@ -214,7 +214,9 @@ QString SampleTableModel::toolTip(const SampleRow& row, int column) const
     case Thumbnail:
       return tr("Sample %1. Double click shows its picture.").arg(sampleNumber(row.id));
     case Status:
-      return row.excluded ? tr("Left out on request. Before: %1").arg(row.status) : row.status;
+      return !row.excluded     ? row.status
+        : row.status.isEmpty() ? tr("Left out on request")
+                               : tr("Left out on request. Before: %1").arg(row.status);
     case ResidualPx:
       return tr("Between the projected tip and the segmented ball, px of the image") +
         (row.residualMm ? tr("; %1 mm off the ray").arg(number(row.residualMm, 2)) : QString());

@@ -20,18 +20,27 @@ namespace
 class Request : public QUndoCommand
 {
 public:
-  Request(const QString& text, std::function<void()> apply, std::function<void()> revert)
+  Request(const QString& text, std::function<void()> apply, std::function<void()> revert, bool isDone)
     : QUndoCommand(text)
     , apply_(std::move(apply))
     , revert_(std::move(revert))
+    , isDone_(isDone)
   {
   }
 
-  void redo() override { apply_(); }
+  /// The stack calls it also when it gets the command.
+  void redo() override
+  {
+    if (!std::exchange(isDone_, false))
+    {
+      apply_();
+    }
+  }
   void undo() override { revert_(); }
 
 private:
   std::function<void()> apply_, revert_;
+  bool isDone_;
 };
 
 }  // namespace
@@ -57,9 +66,9 @@ void SampleTable::Private::addButton(QAction* action)
   buttons->layout()->addWidget(button);
 }
 
-void SampleTable::Private::push(const QString& text, std::function<void()> apply, std::function<void()> revert)
+void SampleTable::Private::push(const QString& text, std::function<void()> apply, std::function<void()> revert, bool isDone)
 {
-  stack->push(new Request(text, std::move(apply), std::move(revert)));
+  stack->push(new Request(text, std::move(apply), std::move(revert), isDone));
 }
 
 void SampleTable::Private::setUpView()

@@ -33,8 +33,8 @@ public:
 
   QAction* addAction(const QString& iconName, const QString& text, const QKeySequence& key, const QString& toolTip);
   void addButton(QAction* action);
-  /// A change of the samples as a pair of requests: the one, and its contrary.
-  void push(const QString& text, std::function<void()> apply, std::function<void()> revert);
+  /// A change of the samples as a pair of requests: the one, and its contrary. @param isDone it is made already
+  void push(const QString& text, std::function<void()> apply, std::function<void()> revert, bool isDone = false);
   void setUpView();
   void setUpActions();
   void fitColumns();

@@ -29,13 +29,27 @@ QSettings memory()
   return QSettings(sessionsFolder() + QStringLiteral("/sessions.ini"), QSettings::IniFormat);
 }
 
-/// A result that was taken back is a document without one, and one that failed says so.
-bool isUsableResult(const QString& path)
+nlohmann::json readJson(const QString& path)
 {
   QFile file(path);
-  const nlohmann::json document =
-    nlohmann::json::parse(file.open(QIODevice::ReadOnly) ? file.readAll().toStdString() : std::string(), nullptr, false);
-  return document.is_object() && document.value("status", nlohmann::json()) == "ok";
+  return nlohmann::json::parse(file.open(QIODevice::ReadOnly) ? file.readAll().toStdString() : std::string(), nullptr, false);
+}
+
+/// A result that was taken back is a document without one, and one that failed says so.
+bool isUsableResult(const nlohmann::json& document)
+{
+  return document.is_object() && document.value("status", nlohmann::json("ok")) == "ok";
+}
+
+/// Of the samples' files, those that were not deleted.
+int sampleCountOf(const QString& folder)
+{
+  const nlohmann::json deleted = readJson(folder + QStringLiteral("/documents/deleted.json"));
+  const nlohmann::json ids = deleted.is_object() ? deleted.value("samples", nlohmann::json()) : nlohmann::json();
+  const QStringList files = QDir(folder + QStringLiteral("/samples")).entryList({ QStringLiteral("*.json") }, QDir::Files);
+  return int(std::count_if(files.begin(), files.end(),
+    [&ids](const QString& file)
+    { return std::find(ids.begin(), ids.end(), nlohmann::json(QFileInfo(file).baseName().toInt())) == ids.end(); }));
 }
 
 QString tr(const char* text)
@@ -63,12 +77,12 @@ SessionSummary summarizeSession(const QString& folder)
       return false;
     }
     summary.changed = summary.changed.isValid() ? std::max(summary.changed, file.lastModified()) : file.lastModified();
-    return isUsableResult(file.filePath());
+    return isUsableResult(readJson(file.filePath()));
   };
-  summary.sampleCount = QDir(folder + QStringLiteral("/samples")).entryList({ QStringLiteral("*.json") }, QDir::Files).size();
+  summary.sampleCount = sampleCountOf(folder);
   summary.hasStylus = has("stylus");
   summary.isCalibrated = has("calibration");
-  summary.isValidated = has("validation");
+  summary.isValidated = has("validation") && summary.isCalibrated;
   summary.isRegistered = has("phantom");
   return summary;
 }

@@ -180,13 +180,13 @@ void StylusPage::showSpin()
   constexpr double Degrees = 180 / M_PI;
   ui_->spinProgress->setValue(int(100 * state.share()));
   ui_->spinFinishButton->setEnabled(estimate.isUsable());
-  const QString turned = tr("Spun by %1° of %2° (RMS), %3 of %4 poses, %5 hidden.")
+  const QString turned = tr("Spun by %1 of %2 deg (RMS), %3 of %4 poses, %5 hidden.")
                            .arg(estimate.spin * Degrees, 0, 'f', 0)
                            .arg(SpinTask::EnoughSpin * Degrees, 0, 'f', 0)
                            .arg(estimate.used.size())
                            .arg(SpinTask::EnoughPoses)
                            .arg(state.hidden);
-  const QString found = estimate.isUsable() ? tr("The shaft is known to %1°.").arg(estimate.shaftSigma * Degrees, 0, 'f', 3)
+  const QString found = estimate.isUsable() ? tr("The shaft is known to %1 deg.").arg(estimate.shaftSigma * Degrees, 0, 'f', 3)
                                             : QString::fromStdString(estimate.message);
   ui_->shaftLabel->setText(turned + QLatin1Char(' ') + found);
 }

@@ -9,9 +9,9 @@
 #include "ui_ValidationPage.h"
 
 #include <QFileDialog>
+#include <QSignalBlocker>
 
 #include <algorithm>
-#include <utility>
 
 namespace handeye
 {
@@ -60,17 +60,26 @@ ValidationPage::ValidationPage(HandEyeWorkbench& workbench, QWidget* parent)
   connect(ui_->againButton, &QPushButton::clicked, &capture, &CaptureTask::evaluateAgain);
   connect(&capture, &CaptureTask::hintChanged, this,
     [this] { ui_->hintLabel->setText(asSentence(workbench_.validationCapture().hint())); });
-  connect(&capture, &CaptureTask::accepted, this, [this](int id) { ui_->hintLabel->setText(tr("Sample %1 is stored.").arg(sampleNumber(id))); });
+  connect(&capture, &CaptureTask::accepted, this,
+    [this](int id) { ui_->hintLabel->setText(tr("Sample %1 is stored.").arg(sampleNumber(id))); });
   connect(&capture, &CaptureTask::imported, this,
     [this](const QVector<int>& ids, int refused, const QString& reason)
     { ui_->hintLabel->setText(importedWords(ids.size(), refused, reason)); });
   connect(&capture, &CaptureTask::samplesChanged, this, &ValidationPage::showStartOver);
   connect(ui_->startOverButton, &QPushButton::clicked, this, &ValidationPage::startOver);
+  connect(ui_->bringBackButton, &QPushButton::clicked, this, &ValidationPage::bringBack);
   connect(&workbench_, &HandEyeWorkbench::resultsForgotten, this,
     [this]
     {
       setAside_.clear();
       ui_->hintLabel->clear();
+    });
+  connect(&capture, &CaptureTask::opened, this,
+    [this]
+    {
+      // As on the page Capture: what is gone on with takes nothing by itself.
+      const QSignalBlocker blocker(ui_->handsFreeBox);
+      ui_->handsFreeBox->setChecked(workbench_.validationCapture().storedSampleCount() == 0);
     });
   showStartOver();
   connect(&workbench_.devices(), &DeviceHub::connectionChanged, ui_->hintLabel, &QLabel::clear);
@@ -81,10 +90,6 @@ ValidationPage::~ValidationPage() = default;
 
 void ValidationPage::enter()
 {
-  if (ui_->handsFreeBox->isChecked() && workbench_.missingFor(step()).isEmpty())
-  {
-    workbench_.validationCapture().beginHandsFree();
-  }
   showValidation();
 }
 
@@ -112,16 +117,10 @@ void ValidationPage::showValidation()
   ui_->verdictLabel->setVisible(!ui_->verdictLabel->text().isEmpty());
 }
 
-/// A page is validated as a whole: single placements that look bad are not to be picked out.
+/// A capture is validated as a whole: single placements that look bad are not to be picked out.
 void ValidationPage::startOver()
 {
   CaptureTask& capture = workbench_.validationCapture();
-  if (!setAside_.isEmpty())
-  {
-    capture.setDeleted(std::exchange(setAside_, {}), false);
-    ui_->hintLabel->setText(tr("The placements of before are back."));
-    return;
-  }
   QVector<int> ids;
   for (const CaptureSample& sample : capture.samples())
   {
@@ -130,26 +129,47 @@ void ValidationPage::startOver()
       ids << sample.id;
     }
   }
+  // The ball rests where it is: nothing is to be taken before the person is ready.
+  ui_->handsFreeBox->setChecked(false);
   setAside_ = ids;
   capture.setDeleted(ids, true);
-  ui_->hintLabel->setText(counted(ids.size(), tr("1 placement is set aside; the next one begins a new validation."),
-    tr("%1 placements are set aside; the next one begins a new validation.")));
+  ui_->hintLabel->setText(counted(ids.size(), tr("1 placement is set aside."), tr("%1 placements are set aside.")) +
+    QLatin1Char(' ') + tr("Turn Hands-free on, or take one, to begin anew."));
+}
+
+void ValidationPage::bringBack()
+{
+  const QVector<int> ids = setAside();
+  setAside_.clear();
+  workbench_.validationCapture().setDeleted(ids, false);
+  ui_->hintLabel->setText(tr("The placements of before are back."));
+}
+
+/// Those of the last start over; in a session that was opened again, all that were ever set aside.
+QVector<int> ValidationPage::setAside() const
+{
+  QVector<int> ids;
+  for (const CaptureSample& sample : workbench_.validationCapture().samples())
+  {
+    if (sample.isDeleted && (setAside_.isEmpty() || setAside_.contains(sample.id)))
+    {
+      ids << sample.id;
+    }
+  }
+  return ids;
 }
 
 void ValidationPage::showStartOver()
 {
-  const QMap<int, CaptureSample>& samples = workbench_.validationCapture().samples();
-  const bool isAny = std::any_of(samples.begin(), samples.end(), [](const CaptureSample& sample) { return !sample.isDeleted; });
-  if (isAny)
-  {
-    setAside_.clear();
-  }
-  ui_->startOverButton->setText(setAside_.isEmpty() ? tr("Start &over") : tr("Bring &back"));
-  ui_->startOverButton->setToolTip(setAside_.isEmpty()
-      ? tr("Sets all placements of the validation aside, which a wrong recording may have brought, and begins anew")
-      : tr("Brings the placements back that were set aside"));
-  ui_->startOverButton->setVisible(isAny || !setAside_.isEmpty());
-  ui_->startOverButton->setEnabled(!workbench_.validationCapture().isBusy());
+  const CaptureTask& capture = workbench_.validationCapture();
+  const QMap<int, CaptureSample>& samples = capture.samples();
+  const int setAsideCount = setAside().size();
+  ui_->startOverButton->setVisible(
+    std::any_of(samples.begin(), samples.end(), [](const CaptureSample& sample) { return !sample.isDeleted; }));
+  ui_->startOverButton->setEnabled(!capture.isBusy());
+  ui_->bringBackButton->setVisible(setAsideCount > 0);
+  ui_->bringBackButton->setEnabled(!capture.isBusy());
+  ui_->bringBackButton->setText(tr("Bring %1 &back").arg(setAsideCount));
 }
 
 void ValidationPage::refresh()
@@ -161,6 +181,10 @@ void ValidationPage::refresh()
   ui_->recordingButton->setEnabled(isReady && !workbench_.validationCapture().isBusy());
   ui_->againButton->setVisible(workbench_.validationCapture().isBroken());
   showStartOver();
+  if (isVisible() && isReady && isLive && ui_->handsFreeBox->isChecked())
+  {
+    workbench_.validationCapture().beginHandsFree();
+  }
 }
 
 }  // namespace handeye

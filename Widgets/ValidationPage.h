@@ -29,12 +29,14 @@ public:
 
 private:
   void showValidation();
-  /// All placements are set aside, or those that were come back.
+  /// All placements are set aside; bringBack(): those that were come back.
   void startOver();
+  void bringBack();
+  QVector<int> setAside() const;
   void showStartOver();
 
   std::unique_ptr<Ui::ValidationPage> ui_;
-  QVector<int> setAside_;  ///< ids of the last start over, until something new is taken
+  QVector<int> setAside_;  ///< ids of the last start over; empty: none in this sitting
 };
 
 }  // namespace handeye

@@ -139,6 +139,8 @@ PivotCollector::Outcome PivotCollector::keep(const Eigen::Isometry3d& stylusToTr
       return Outcome::Redundant;
     }
     --crowd_[orientationCell(poses_[giving].linear())];
+    --counts_.kept;
+    ++counts_.redundant;
     // The order stays that of time: whether the tip moved is judged by it.
     poses_.erase(poses_.begin() + std::ptrdiff_t(giving));
     poses_.push_back(stylusToTracker);

@@ -65,6 +65,7 @@ public:
     Disagrees   ///< it puts the tip elsewhere
   };
 
+  /// `kept` are poses(); one that gave way to a rarer orientation is redundant, whatever add() said of it.
   struct Counts
   {
     long long kept = 0, redundant = 0, repeated = 0, invalid = 0, disagreeing = 0;

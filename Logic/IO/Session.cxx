@@ -322,13 +322,24 @@ void Session::writeSample(const SessionSample& sample, std::size_t imageBytes, s
     folder_ / "samples" / (frameDigits(sample.id) + ".json"), toJson(StoredSample{ sample, imageBytes, imageCrc }).dump(2) + "\n");
 }
 
-void Session::setExcluded(int id, bool isExcluded)
+void Session::setExcluded(const std::vector<int>& ids, bool isExcluded)
 {
-  SessionSample changed = samples_.at(id);
-  changed.isExcluded = isExcluded;
-  writeSample(changed, images_.at(id).bytes, images_.at(id).crc);
-  samples_[id] = std::move(changed);
-  refreshTracking();
+  bool isChanged = false;
+  for (const int id : ids)
+  {
+    SessionSample changed = samples_.at(id);
+    if (changed.isExcluded != isExcluded)
+    {
+      changed.isExcluded = isExcluded;
+      writeSample(changed, images_.at(id).bytes, images_.at(id).crc);
+      samples_[id] = std::move(changed);
+      isChanged = true;
+    }
+  }
+  if (isChanged)
+  {
+    refreshTracking();
+  }
 }
 
 /// The accepted samples stay accepted when this fails: it follows from them, and is tried again each time.

@@ -66,8 +66,9 @@ public:
   /// of transforms that a sequence metafile cannot hold (blanks, '=', line ends) and text that is no UTF-8
   int addSample(const cv::Mat& image, SessionSample sample);
 
-  /// Sets a sample aside, or brings it back. @throws FileError; std::out_of_range for an id that there is not
-  void setExcluded(int id, bool isExcluded);
+  /// Sets samples aside, or brings them back. @throws FileError; std::out_of_range for an id that there is not
+  void setExcluded(int id, bool isExcluded) { setExcluded(std::vector<int>{ id }, isExcluded); }
+  void setExcluded(const std::vector<int>& ids, bool isExcluded);
 
   /// Stores a result or settings under a name of letters, digits, '-' and '_'. @throws FileError; std::invalid_argument for other
   /// names

@@ -64,8 +64,8 @@ std::vector<io::NamedTransform> fixedTransforms(
     if (!known)
     {
       warnings.push_back(sources.stylus.string() +
-        ": the direction of the shaft is not known; StylusTipToStylus has the axes of the marker. the wizard's page Stylus and "
-        "`handeye spin` find it");
+        ": the direction of the shaft is not known; StylusTipToStylus has the axes of the marker (the wizard's page Stylus and "
+        "`handeye spin` find the shaft)");
     }
     transforms.push_back({ "StylusTip", "Stylus", stylusTipToStylus, figure(sources.stylus, "rmsMm"), date });
   }

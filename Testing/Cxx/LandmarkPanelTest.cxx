@@ -14,7 +14,9 @@
 #include <QToolButton>
 
 #include <cmath>
+#include <functional>
 #include <stdexcept>
+#include <vector>
 
 using namespace handeye;
 
@@ -48,6 +50,11 @@ void connectRegistration(LandmarkPanel& panel)
 QString verdictOf(const LandmarkPanel& panel)
 {
   return panel.findChild<QLabel*>(QStringLiteral("verdictLabel"))->text();
+}
+
+QLabel* fileLabelOf(const LandmarkPanel& panel)
+{
+  return panel.findChild<QLabel*>(QStringLiteral("fileLabel"));
 }
 
 QPushButton* button(const LandmarkPanel& panel, const char* name)
@@ -101,6 +108,47 @@ private slots:
     QCOMPARE(panel.landmarks().size(), 6);
     QVERIFY(!panel.loadModelLandmarks(folder.filePath(QStringLiteral("none.txt"))));
     QVERIFY(verdictOf(panel).contains(QStringLiteral("none.txt")));
+  }
+
+  void AFailedLoad_IsOverWithTheNextStep()
+  {
+    LandmarkPanel panel;
+    QVERIFY(panel.loadModelLandmarks(QString::fromLatin1(LandmarkFile)));
+    const QVector<LandmarkPanel::Landmark> landmarks = panel.landmarks();
+    const std::function<void()> touch = [&] { panel.setTouched({ 1, 2, 3 }); };
+    const std::function<void()> takeBack = [&]
+    {
+      panel.setCurrentLandmark(0);
+      panel.takeBackCurrent();
+    };
+    const std::function<void()> skip = [&] { panel.skipCurrent(); };
+    const std::function<void()> startOver = [&] { panel.clearTouched(); };
+    const std::function<void()> undo = [&] { panel.undo(); };
+    const std::function<void()> anotherSession = [&] { panel.setLandmarks(landmarks); };
+    const std::function<void()> emptySession = [&] { panel.setLandmarks({}); };
+    const std::vector<std::function<void()>> steps = { touch, takeBack, skip, startOver, undo, anotherSession, emptySession };
+    for (std::size_t i = 0; i < steps.size(); ++i)
+    {
+      QVERIFY(!panel.loadModelLandmarks(QStringLiteral("/nowhere/none.txt")));
+      QVERIFY2(verdictOf(panel).contains(QStringLiteral("none.txt")), qPrintable(verdictOf(panel)));
+      steps[i]();
+      QVERIFY2(verdictOf(panel).contains(QStringLiteral("of at least 3")),
+        qPrintable(QStringLiteral("step %1: %2").arg(i).arg(verdictOf(panel))));
+    }
+  }
+
+  void LandmarksOfASession_SayWhereTheyAreFrom()
+  {
+    LandmarkPanel panel;
+    QCOMPARE(fileLabelOf(panel)->text(), QStringLiteral("No landmarks loaded"));
+    QVERIFY(panel.loadModelLandmarks(QString::fromLatin1(LandmarkFile)));
+    touchAll(panel);
+    const QVector<LandmarkPanel::Landmark> landmarks = panel.landmarks();
+    panel.setLandmarks(landmarks);
+    QCOMPARE(fileLabelOf(panel)->text(), QStringLiteral("6 landmarks of the session"));
+    QVERIFY2(fileLabelOf(panel)->toolTip().isEmpty(), qPrintable(fileLabelOf(panel)->toolTip()));
+    panel.setLandmarks({});
+    QCOMPARE(fileLabelOf(panel)->text(), QStringLiteral("No landmarks loaded"));
   }
 
   void TouchingOneAfterTheOther_RegistersThePhantom()
@@ -210,6 +258,26 @@ private slots:
     QVERIFY(panel.pairs().landmarks.isEmpty());
   }
 
+  void CtrlZ_UndoesAfterAClickWithTheMouse()
+  {
+    LandmarkPanel panel;
+    panel.loadModelLandmarks(QString::fromLatin1(LandmarkFile));
+    panel.setTouched({ 1, 2, 3 });
+    testing_widgets::show(panel, { 520, 460 });
+    QPushButton* const skip = button(panel, "skipButton");
+    QTest::mouseClick(skip, Qt::LeftButton);
+    QVERIFY(panel.landmarks()[1].skipped);
+    QTRY_VERIFY(skip->hasFocus());
+    QTest::keyClick(skip, Qt::Key_Z, Qt::ControlModifier);
+    QVERIFY(!panel.landmarks()[1].skipped);
+    // This button is disabled by its own click.
+    QTest::mouseClick(button(panel, "clearButton"), Qt::LeftButton);
+    QVERIFY(panel.pairs().landmarks.isEmpty() && !button(panel, "clearButton")->isEnabled());
+    QTRY_VERIFY(QApplication::focusWidget() && panel.isAncestorOf(QApplication::focusWidget()));
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Z, Qt::ControlModifier);
+    QCOMPARE(panel.pairs().landmarks, QVector<int>{ 0 });
+  }
+
   void StartingOver_IsUndone_AndTheSentenceSaysSo()
   {
     LandmarkPanel panel;
@@ -279,7 +347,8 @@ private slots:
     panel.undo();
     QCOMPARE(panel.landmarks().size(), 6);
     QVERIFY(panel.landmarks()[0].touched_Phantom.has_value());
-    QVERIFY(panel.findChild<QLabel*>(QStringLiteral("fileLabel"))->text().contains(QStringLiteral("VertebraLandmarks.txt")));
+    QVERIFY(fileLabelOf(panel)->text().contains(QStringLiteral("VertebraLandmarks.txt")));
+    QVERIFY(fileLabelOf(panel)->toolTip().endsWith(QStringLiteral("VertebraLandmarks.txt")));
   }
 
   void StartingOver_ForgetsWhatWasTouched()

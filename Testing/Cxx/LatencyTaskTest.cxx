@@ -104,6 +104,34 @@ private slots:
     QVERIFY2(none.startsWith("Video and tracker are in time"), qPrintable(none));
   }
 
+  void differenceWithinTheNoise_IsNotCalledInTime_UnlessItDoesNotMatter()
+  {
+    handeye::TemporalCalibrationResult result;
+    result.latencySec = -0.018;
+    result.sigmaSec = 0.010;
+    const QString hidden = LatencyTask::words(result);
+    QVERIFY2(!hidden.contains("in time") && !hidden.contains("Good") && !hidden.contains("later"), qPrintable(hidden));
+    QVERIFY2(hidden.contains(QStringLiteral("noise: 18.0\u00a0ms \u00b1\u00a010.0\u00a0ms.")), qPrintable(hidden));
+    QVERIFY2(hidden.contains("measure again"), qPrintable(hidden));
+    result.latencySec = 0.0014;  // 0.28 mm at a brisk motion
+    QVERIFY2(LatencyTask::words(result).contains("in time"), qPrintable(LatencyTask::words(result)));
+    result.latencySec = 0.0016;  // 0.32 mm
+    QVERIFY2(!LatencyTask::words(result).contains("in time"), qPrintable(LatencyTask::words(result)));
+  }
+
+  void measuredAgain_IsNotDisturbedByTheNewsOfBefore()
+  {
+    task_->setLongestSilence(100);
+    start(1);
+    task_->onFrame(frameAt(0), {});
+    task_->onFrame(frameAt(2), {});  // evaluated; its news wait in this thread's queue
+    task_->cancel();
+    start(1);
+    QTRY_COMPARE(refusals_->count(), 1);
+    QVERIFY2(refusal().contains("no picture has come"), qPrintable(refusal()));
+    QVERIFY(!task_->isRunning());
+  }
+
   void cancelled_SaysNothing()
   {
     task_->setLongestSilence(50);

@@ -261,6 +261,31 @@ TEST(PivotCollector, CountsWithAResult_AddUpToAllThatCame)
   EXPECT_GE(counts.disagreeing, 6);
 }
 
+TEST(PivotCollector, PosesThatGiveWay_AreCountedAsRedundant)
+{
+  Random random(9);
+  const PivotSimulation stylus;
+  PivotCollectorOptions options;
+  PivotCollector collector(options);
+  const int count = int(6 * options.capacity);
+  int replaced = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    const bool isFull = collector.poses().size() == options.capacity;
+    const Outcome outcome = collector.add(stylus.pose(circling(i, 35 * Degree), random));
+    replaced += isFull && outcome == Outcome::Kept ? 1 : 0;
+    ASSERT_EQ(collector.counts().kept, (long long)collector.poses().size()) << i;
+    ASSERT_EQ(collector.counts().total(), i + 1);
+  }
+  EXPECT_GT(replaced, 0);
+  EXPECT_GE(collector.counts().redundant, replaced);
+  const PivotCalibrationResult result = collector.calibrate();
+  ASSERT_TRUE(result.isUsable()) << result.message;
+  const PivotCollector::Counts counts = collector.countsWith(result);
+  EXPECT_EQ(counts.kept, (long long)result.used.size());
+  EXPECT_EQ(counts.total(), count);
+}
+
 TEST(PivotCollector, TimeInOnePlace_DoesNotPushTheOthersOut)
 {
   Random random(6);

@@ -211,6 +211,21 @@ private slots:
       qPrintable(first.data(Qt::ToolTipRole).toString()));
   }
 
+  void ASampleThatIsLeftOut_SaysWhatItWasBefore_IfThatIsKnown()
+  {
+    SampleTableModel model;
+    QVector<SampleRow> rows = fiveRows();
+    rows[1].excluded = rows[2].excluded = true;
+    rows[1].status = QStringLiteral("disagrees with the others");
+    rows[2].status.clear();
+    model.setRows(rows);
+    const auto tip = [&model](int row) { return model.index(row, Model::Status).data(Qt::ToolTipRole).toString(); };
+    QCOMPARE(tip(0), QStringLiteral("ok"));
+    QCOMPARE(tip(1), QStringLiteral("Left out on request. Before: disagrees with the others"));
+    QCOMPARE(tip(2), QStringLiteral("Left out on request"));
+    QCOMPARE(model.index(2, Model::Status).data().toString(), QStringLiteral("left out"));
+  }
+
   void InANarrowPanel_TheStatusKeepsItsHeadingAndItsWords()
   {
     SampleTable table;

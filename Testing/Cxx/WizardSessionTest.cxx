@@ -46,6 +46,8 @@ private slots:
   void reopened_GoesOnWhereItWasLeft();
   void lastSession_IsOfferedUntilThisOneIsUsed();
   void devices_OfTheSessionStandThereAgain();
+  void sessionThatCannotBeOpened_IsSaidAndReplaced();
+  void resultOfAnotherSession_IsNobodys();
 };
 
 /// A wrong recording is mixed in at once, and taken out at once.
@@ -86,6 +88,7 @@ void WizardSessionTest::validation_StartsOverAndComesBack()
   panel.goTo(WizardStep::Validation);
   WizardDriver driver(panel);
   auto* const again = driver.onPage("startOverButton");
+  auto* const back = driver.onPage("bringBackButton");
   QVERIFY(!again->isVisible());
   QVERIFY(panel.openFile(demo("validation")));
   QTRY_VERIFY_WITH_TIMEOUT(driver.canGoNext() && !workbench.validationCapture().isBusy(), PatienceMs);
@@ -101,9 +104,16 @@ void WizardSessionTest::validation_StartsOverAndComesBack()
   workbench.afterStoring([&isStored] { isStored = true; });
   QTRY_VERIFY_WITH_TIMEOUT(isStored, PatienceMs);
   QVERIFY2(!handeye::summarizeSession(workbench.sessionFolder()).isValidated, "what was set aside validates nothing");
-  driver.click(again);
-  QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && driver.canGoNext(), PatienceMs);
-  QCOMPARE(workbench.validation()->projectionErrorPx.count, count);
+  QVERIFY(!again->isVisible() && back->isVisible());
+  QVERIFY2(!driver.onPage<QCheckBox>("handsFreeBox")->isChecked(), "the ball that rests there is not taken at once");
+  // What is taken meanwhile does not take the way back.
+  QVERIFY(panel.openFile(demo("calibration")));
+  QTRY_VERIFY_WITH_TIMEOUT(!workbench.validationCapture().isBusy() && !table->rows().isEmpty(), PatienceMs);
+  const int others = table->rows().size();
+  QVERIFY(back->isVisible());
+  driver.click(back);
+  QTRY_COMPARE_WITH_TIMEOUT(table->rows().size(), others + count, PatienceMs);
+  QVERIFY(!back->isVisible());
 }
 
 void WizardSessionTest::reopened_GoesOnWhereItWasLeft()
@@ -148,6 +158,8 @@ void WizardSessionTest::reopened_GoesOnWhereItWasLeft()
   QVERIFY(workbench.isDone(WizardStep::Finish));
   QVERIFY2(!panel.page(WizardStep::Capture)->findChild<QCheckBox*>(QStringLiteral("handsFreeBox"))->isChecked(),
     "a session with samples takes no others by itself");
+  QVERIFY2(panel.page(WizardStep::Validation)->findChild<QCheckBox*>(QStringLiteral("handsFreeBox"))->isChecked(),
+    "there is no validation yet");
   // Another calibration is not the one that was exported.
   const int first = workbench.capture().samples().firstKey();
   workbench.capture().setExcluded({ first }, true);
@@ -208,11 +220,52 @@ void WizardSessionTest::devices_OfTheSessionStandThereAgain()
   testing_widgets::show(panel, QSize(1280, 800));
   QSignalSpy opened(&panel.workbench(), &HandEyeWorkbench::sessionOpened);
   QVERIFY(panel.openFile(folder));
+  QTRY_VERIFY_WITH_TIMEOUT(opened.count() > 0, PatienceMs);
+  QCOMPARE(QDir(panel.workbench().sessionFolder()), QDir(folder));
   WizardDriver driver(panel);
   QTRY_VERIFY_WITH_TIMEOUT(driver.onPage<QAbstractButton>("recordingButton")->isChecked(), PatienceMs);
   driver.click(driver.onPage("connectButton"));
   QTRY_VERIFY_WITH_TIMEOUT(panel.workbench().devices().isConnected(), PatienceMs);
   QCOMPARE(panel.workbench().devices().setup().recording, demo("calibration"));
+}
+
+void WizardSessionTest::sessionThatCannotBeOpened_IsSaidAndReplaced()
+{
+  const QTemporaryDir parent;
+  const QString folder = parent.filePath(QStringLiteral("session"));
+  HandEyeCalibrationPanel first(nullptr, nullptr);
+  first.workbench().openSession(folder);
+  QSignalSpy isOpen(&first.workbench(), &HandEyeWorkbench::sessionOpened);
+  QVERIFY(isOpen.wait(PatienceMs));
+  // It is in use.
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  testing_widgets::show(panel, QSize(1280, 800));
+  panel.goTo(WizardStep::Stylus);
+  panel.workbench().openSession(folder);
+  WizardDriver driver(panel);
+  QTRY_COMPARE_WITH_TIMEOUT(panel.currentStep(), WizardStep::Devices, PatienceMs);
+  QTRY_VERIFY2_WITH_TIMEOUT(driver.message().contains(QStringLiteral("new session")), qPrintable(driver.message()), PatienceMs);
+  QVERIFY(!panel.workbench().sessionFolder().isEmpty() && panel.workbench().sessionFolder() != folder);
+  loadInputs(panel);
+  importCapture(panel);
+}
+
+/// A recording is pivoted while another session is opened.
+void WizardSessionTest::resultOfAnotherSession_IsNobodys()
+{
+  const QTemporaryDir parent;
+  HandEyeCalibrationPanel panel(nullptr, nullptr);
+  HandEyeWorkbench& workbench = panel.workbench();
+  panel.goTo(WizardStep::Stylus);
+  QVERIFY(panel.openFile(demo("pivot.igs.mha")));
+  workbench.openSession(parent.filePath(QStringLiteral("another")));
+  QSignalSpy opened(&workbench, &HandEyeWorkbench::sessionOpened);
+  QVERIFY(opened.wait(PatienceMs));
+  bool isThrough = false;
+  workbench.afterStoring([&isThrough] { isThrough = true; });
+  QTRY_VERIFY_WITH_TIMEOUT(isThrough, PatienceMs);
+  QTest::qWait(200);
+  QVERIFY(!workbench.stylus() && !workbench.isSessionUsed());
 }
 
 HANDEYE_WIDGET_TEST_MAIN(WizardSessionTest)
