@@ -60,7 +60,7 @@ TEST(HandEyeGuidance, Placements_AreInsideTheImageAndTheDepths)
       EXPECT_LE(next.ball_Image.y(), 0.9 * view.camera.height());
       EXPECT_GE(next.ball_Camera.z(), view.nearestMm - 1e-9);
       EXPECT_LE(next.ball_Camera.z(), view.furthestMm + 1e-9);
-      EXPECT_TRUE(says(next.message, { "hold the ball at the ", " px), ", "mm away" }));
+      EXPECT_TRUE(says(next.message, { " at the ", " px), ", "mm away" }));
       for (const Eigen::Vector3d& earlier : places)
       {
         EXPECT_GE((earlier - next.ball_Camera).norm(), 15);
