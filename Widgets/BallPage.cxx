@@ -20,7 +20,7 @@ BallPage::BallPage(HandEyeWorkbench& workbench, QWidget* parent)
 {
   ui_->setupUi(this);
   // What is said of the ball changes with every frame: the page must not move with it.
-  constexpr int LinesOfFound = 4;
+  constexpr int LinesOfFound = 3;
   ui_->foundLabel->setMinimumHeight(LinesOfFound * ui_->foundLabel->fontMetrics().lineSpacing());
   ui_->foundLabel->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   ui_->foundLabel->setAlignment(Qt::AlignTop | Qt::AlignLeft);
@@ -67,8 +67,7 @@ void BallPage::showLatency()
   ui_->latencyLabel->setText(latencySec == measuredSec_ && !measured_.isEmpty() ? measured_
       : latencySec != 0
       ? tr("%1 is in use, measured before or typed on the page Devices.").arg(withUnit(1000 * latencySec, 1, tr("ms")))
-      : tr("Not measured: video and tracker are taken to be in time. "
-           "That is right for a ball that is held still; a moving camera needs it."));
+      : tr("Not measured: right for a ball that is held still. A moving camera needs it."));
 }
 
 void BallPage::leave()

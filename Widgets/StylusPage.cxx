@@ -150,7 +150,6 @@ void StylusPage::showProgress()
   const QString errorMm = withUnit(state.predictedTipErrorMm, 2, tr("mm"));
   const QString error = tr("%1 predicted (residuals %2 RMS)").arg(errorMm, withUnit(estimate.rmsMm, 2, tr("mm")));
   ui_->errorLabel->setText(isKnown ? error : hasPoses ? tr("not known yet") : tr("–"));
-  ui_->dome->setErrorText(isKnown ? tr("tip error %1").arg(errorMm) : QString(), state.isExact ? Level::Good : Level::Info);
   ui_->posesLabel->setText(hasPoses ? PivotTask::wordsOf(state.counts) : tr("–"));
   ui_->dome->setHint(hint());
   ui_->introLabel->setText(intro());
