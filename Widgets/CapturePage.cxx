@@ -69,6 +69,7 @@ CapturePage::CapturePage(HandEyeWorkbench& workbench, QWidget* parent)
   connect(&capture, &CaptureTask::imported, this,
     [this](const QVector<int>& ids, int refused, const QString& reason)
     {
+      ui_->handsFreeBox->setChecked(false);  // live samples are not mixed into a recording's unasked
       ui_->hintLabel->setText(importedWords(ids.size(), refused, reason));
       if (!ids.isEmpty())
       {

@@ -15,6 +15,7 @@ namespace
 
 const char* const DeletedDocument = "deleted";
 constexpr int BeginMs = 2000;
+constexpr int MostTakeTries = 15;  ///< frames: half a second
 
 bool isSameColor(const BallColor& a, const BallColor& b)
 {
@@ -169,7 +170,7 @@ void CaptureTask::close()
     [session = ++session_](Work& work)
     {
       work.sessionCount = session;
-      work.isTakeAsked = false;
+      work.takeTries = 0;
       work.live.reset();
       work.session.reset();
       work.deleted.clear();
@@ -246,7 +247,7 @@ void CaptureTask::setHandsFree(bool isHandsFree)
 
 void CaptureTask::takeNow()
 {
-  post([](Work& work) { work.isTakeAsked = true; });
+  post([](Work& work) { work.takeTries = MostTakeTries; });
 }
 
 void CaptureTask::addSample(const CaptureSample& sample, bool isNew)

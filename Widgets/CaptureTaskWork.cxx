@@ -146,7 +146,7 @@ void CaptureTask::onFrame(const devices::PairedFrame& frame)
   }
   try
   {
-    if (std::exchange(work.isTakeAsked, false))
+    if (work.takeTries > 0)
     {
       take(work, frame);
       return;
@@ -182,9 +182,10 @@ void CaptureTask::onFrame(const devices::PairedFrame& frame)
   }
 }
 
-/// In the work's thread: this frame, whether the ball is held still or not.
+/// In the work's thread: this frame, whether the ball is held still or not; or one of the next, where the tracker blinks.
 void CaptureTask::take(Work& work, const devices::PairedFrame& frame)
 {
+  --work.takeTries;
   const cv::Mat& image = frame.image.frame()->image;
   io::SessionSample stored = devices::toSessionSample(frame);
   for (const std::string& name : { work.inputs->tools.markerToTracker, work.inputs->tools.stylusToTracker })
@@ -192,11 +193,16 @@ void CaptureTask::take(Work& work, const devices::PairedFrame& frame)
     const auto pose = frame.poses.find(name);
     if (pose == frame.poses.end() || !pose->second.isUsable())
     {
+      if (work.takeTries > 0)
+      {
+        return;
+      }
       const std::string reason = pose == frame.poses.end() ? "no pose was received" : pose->second.message;
       tell([text = work.inWords(name + ": " + reason)](CaptureTask& task) { emit task.failed(tr("Not taken: %1").arg(text)); });
       return;
     }
   }
+  work.takeTries = 0;
   const BallDetector detector(
     work.inputs->camera.withImageSize(image.cols, image.rows), work.inputs->ballRadiusMm, work.inputs->detection);
   const CapturedFrame captured = evaluateSample(stored, image, work.inputs->tools, detector, work.inputs->tip_Stylus);

@@ -22,7 +22,8 @@ struct CaptureTask::Work
   std::unique_ptr<devices::LiveCapture> live;
   std::set<int> deleted;
   int sessionCount = 0;  ///< of CaptureTask::session_, when the folder was opened
-  bool isHandsFree = false, isTakeAsked = false;
+  bool isHandsFree = false;
+  int takeTries = 0;  ///< frames in which the sample that was asked for is still looked for
   devices::LiveCapture::Step::Status lastStatus = devices::LiveCapture::Step::Status::Accepted;
   std::string lastMessage;
 

@@ -5,6 +5,7 @@
 #include "ui_DevicesPage.h"
 
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QLocale>
 #include <QSignalBlocker>
 
@@ -131,6 +132,10 @@ void DevicesPage::chooseRecording(const QString& path)
 {
   ui_->recordingButton->setChecked(true);
   ui_->recordingEdit->setText(path);
+  if (workbench_.devices().isConnected())
+  {
+    workbench_.refuseRecording(QFileInfo(path).fileName());
+  }
 }
 
 void DevicesPage::newSession()

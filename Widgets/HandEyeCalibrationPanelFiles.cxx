@@ -59,6 +59,11 @@ void HandEyeCalibrationPanel::openRecording(const QString& path)
 void HandEyeCalibrationPanel::openResult(const QString& path)
 {
   const QString kind = resultKind(path);
+  if (kind == QStringLiteral("truth"))
+  {
+    workbench().refuseTruth(QFileInfo(path).fileName());
+    return;
+  }
   const bool isForThisPage = kind.isEmpty();
   const WizardStep here = currentStep();
   if (kind == QStringLiteral("stylus") || (isForThisPage && here == WizardStep::Stylus))

@@ -128,6 +128,10 @@ public:
   // Devices
   bool connectDevices(const DeviceSetup& setup);
   void setStreamNames(const DeviceSetup& setup);
+  /// Says that a recording cannot be played beside the devices that are connected.
+  void refuseRecording(const QString& name);
+  /// Says that a simulation's truth is nothing to work with, on the page that is open.
+  void refuseTruth(const QString& name);
   /// The page that a person is on: the simulated room follows it, and the ball is looked for where it is needed.
   void enterStep(WizardStep step);
   WizardStep step() const { return step_; }
@@ -176,9 +180,9 @@ public:
   void writeReport(const QString& folder);
   /// The report of the validation as it is now; empty if there is none.
   QString reportFile() const;
-  /// The calibration, as it is now, was exported to a folder.
+  /// The calibration with stylus and registration, as they are now, was exported to a folder.
   void setExported(const QString& folder);
-  /// Where the calibration, as it is now, was exported to; empty: it was not.
+  /// Where all of it, as it is now, was exported to; empty: it was not.
   QString exportedFolder() const;
 
   // Comparison
@@ -210,6 +214,9 @@ public:
   /// The model that comes with the program, and its landmarks; empty if it was not found.
   static QString ownModel();
   static QString ownLandmarks();
+  /// Whether landmarks can be those of the mesh that is loaded: they lie on its surface. What does not is refused in words.
+  void checkLandmarks(const std::vector<Eigen::Vector3d>& points_Model);
+  /// Refused where checkLandmarks() would; the registration of before stays then.
   /// @param touchedModel the mesh whose landmarks they are; empty: the one that is loaded
   void registerLandmarks(const std::vector<Eigen::Vector3d>& points_Model, const std::vector<Eigen::Vector3d>& points_Phantom,
     const QString& touchedModel = {});
@@ -290,6 +297,7 @@ private:
   QString missingForComparison() const;
   void takeDocuments(const std::map<std::string, nlohmann::json>& documents, const QStringList& problems);
   void restoreFiles(const std::map<std::string, nlohmann::json>& documents);
+  std::vector<double> exportedNumbers() const;
   BallDocument ballDocument() const;
   void storeBall();
   void setBallColor(const BallColor& color, bool isLearnt, const QString& message);
@@ -304,6 +312,8 @@ private:
   void takeSpin(const SpinStepResult& result);
   void playRoom();
   void storeModel();
+  static QString problemOfLandmarks(vtkPolyData* mesh, const QString& meshPath, const std::vector<Eigen::Vector3d>& points_Model);
+  vtkSmartPointer<vtkPolyData> meshBeside() const;
   void setModelToPhantom(const std::optional<Eigen::Isometry3d>& modelToPhantom, const QString& madeForModel);
   void updateInputs();
   void updateLive();
@@ -339,7 +349,7 @@ private:
   QStringList sessionProblems_;
   QString openProblem_;  ///< why the session that was wanted is not open; empty once it was said
   bool isSessionUsed_ = false;
-  nlohmann::json report_;                                       ///< where the last one is, and of which errors (px) it is
+  nlohmann::json report_;  ///< where the last one is, and of which errors (px) it is
   std::optional<ExportDocument> exported_;
   std::optional<WizardStep> storedStep_;
   QString storedComparison_;

@@ -6,6 +6,7 @@
 
 #include "MeshReader.h"
 #include "ResultFiles.h"
+#include "SurfaceDistance.h"
 
 #include <QCoreApplication>
 #include <QFileInfo>
@@ -105,12 +106,58 @@ void HandEyeWorkbench::keepRegistration()
   setModelToPhantom(modelToPhantom_, modelPath_);
 }
 
+/// In the work's thread. @return a sentence where they do not lie on the mesh; empty where they do, or there is none
+QString HandEyeWorkbench::problemOfLandmarks(
+  vtkPolyData* mesh, const QString& meshPath, const std::vector<Eigen::Vector3d>& points_Model)
+{
+  const double offMm = mesh ? largestSurfaceDistance(mesh, points_Model) : 0;
+  return offMm <= LargestSurfaceDistanceMm
+    ? QString()
+    : tr("These are no landmarks of %1: one is %2 mm off its surface, at most %3 mm are expected. Load the landmarks that were "
+         "picked on this mesh; those that were touched belong to the phantom.")
+        .arg(QFileInfo(meshPath).fileName())
+        .arg(offMm, 0, 'f', 1)
+        .arg(LargestSurfaceDistanceMm, 0, 'f', 0);
+}
+
+/// The mesh for the work's thread: what a locator adds to it, it adds to this one alone.
+vtkSmartPointer<vtkPolyData> HandEyeWorkbench::meshBeside() const
+{
+  vtkSmartPointer<vtkPolyData> copy;
+  if (model_.mesh)
+  {
+    copy = vtkSmartPointer<vtkPolyData>::New();
+    copy->ShallowCopy(model_.mesh);
+  }
+  return copy;
+}
+
+void HandEyeWorkbench::checkLandmarks(const std::vector<Eigen::Vector3d>& points_Model)
+{
+  beside(WizardStep::Overlay,
+    [this, points_Model, mesh = meshBeside(), path = modelPath_]
+    {
+      const QString problem = problemOfLandmarks(mesh, path, points_Model);
+      if (!problem.isEmpty())
+      {
+        tell([this, problem] { refuse(WizardStep::Overlay, problem); });
+      }
+    });
+}
+
 void HandEyeWorkbench::registerLandmarks(
   const std::vector<Eigen::Vector3d>& points_Model, const std::vector<Eigen::Vector3d>& points_Phantom, const QString& touchedModel)
 {
   beside(WizardStep::Overlay,
-    [this, points_Model, points_Phantom, ofModel = touchedModel.isEmpty() ? modelPath_ : touchedModel]
+    [this, points_Model, points_Phantom, mesh = meshBeside(), path = modelPath_,
+      ofModel = touchedModel.isEmpty() ? modelPath_ : touchedModel]
     {
+      const QString problem = ofModel == path ? problemOfLandmarks(mesh, path, points_Model) : QString();
+      if (!problem.isEmpty())
+      {
+        tell([this, problem] { refuse(WizardStep::Overlay, problem); });
+        return;
+      }
       const LandmarkRegistrationResult result = handeye::registerLandmarks(points_Model, points_Phantom);
       tell(
         [this, result, ofModel]

@@ -9,6 +9,7 @@
 
 #include <QFileInfo>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -219,11 +220,39 @@ QString HandEyeWorkbench::reportFile() const
   return QFileInfo::exists(path) ? path : QString();
 }
 
+/// All of what exports are made of.
+std::vector<double> HandEyeWorkbench::exportedNumbers() const
+{
+  std::vector<double> numbers;
+  const auto add = [&numbers](const auto& matrix) { numbers.insert(numbers.end(), matrix.data(), matrix.data() + matrix.size()); };
+  if (!calibration_ || !calibration_->isUsable())
+  {
+    return numbers;
+  }
+  add(calibration_->calibration.markerToCamera.matrix());
+  add(calibration_->camera.cameraMatrix());
+  const std::vector<double> distortion = calibration_->camera.distortionCoefficients();
+  numbers.insert(numbers.end(), distortion.begin(), distortion.end());
+  if (stylus_)
+  {
+    add(stylus_->tip_Stylus);
+    if (stylus_->stylusTipToStylus)
+    {
+      add(stylus_->stylusTipToStylus->matrix());
+    }
+  }
+  if (const std::optional<Eigen::Isometry3d> modelToPhantom = registrationOfModel())
+  {
+    add(modelToPhantom->matrix());
+  }
+  return numbers;
+}
+
 void HandEyeWorkbench::setExported(const QString& folder)
 {
   if (calibration_ && calibration_->isUsable())
   {
-    exported_ = ExportDocument{ folder, calibration_->calibration.markerToCamera };
+    exported_ = ExportDocument{ folder, exportedNumbers() };
     store("export", exportJson(*exported_));
     emit stateChanged();
   }
@@ -232,9 +261,11 @@ void HandEyeWorkbench::setExported(const QString& folder)
 QString HandEyeWorkbench::exportedFolder() const
 {
   // Far below what any tracker or program tells apart, and far above what a calibration made anew differs by.
-  constexpr double SamePose = 1e-6;
-  const bool isSame = exported_ && calibration_ && calibration_->isUsable() &&
-    (calibration_->calibration.markerToCamera.matrix() - exported_->markerToCamera.matrix()).cwiseAbs().maxCoeff() < SamePose;
+  constexpr double Same = 1e-6;
+  const std::vector<double> numbers = exported_ ? exportedNumbers() : std::vector<double>();
+  const bool isSame = !numbers.empty() && numbers.size() == exported_->numbers.size() &&
+    std::equal(numbers.begin(), numbers.end(), exported_->numbers.begin(),
+      [](double a, double b) { return std::abs(a - b) <= Same * std::max(1.0, std::abs(a)); });
   return isSame ? exported_->folder : QString();
 }
 

@@ -42,6 +42,13 @@ void LandmarkPanel::Private::setUpUi()
   QHeaderView* header = ui.table->horizontalHeader();
   header->setSectionResizeMode(QHeaderView::ResizeToContents);
   header->setSectionResizeMode(NameColumn, QHeaderView::Stretch);
+  // However little room there is: three rows, and each sentence in its own two lines.
+  constexpr int LeastTableHeight = 130;
+  ui.table->setMinimumHeight(LeastTableHeight);
+  for (QLabel* const label : { ui.tipLabel, ui.verdictLabel })
+  {
+    label->setMinimumHeight(2 * label->fontMetrics().lineSpacing());
+  }
   ui.openLandmarksButton->setIcon(icon(QStringLiteral("open")));
   ui.touchButton->setIcon(icon(QStringLiteral("landmark")));
   ui.undoButton->setIcon(icon(QStringLiteral("undo")));

@@ -85,6 +85,7 @@ OverlayPage::OverlayPage(HandEyeWorkbench& workbench, QWidget* parent)
       if (pairs.landmarks.size() < LandmarkPanel::FewestLandmarks)
       {
         ui_->landmarks->setResult({});
+        checkLandmarks();
         return;
       }
       workbench_.registerLandmarks(pairs.points_Model, pairs.points_Phantom, touchedModel_);
@@ -141,6 +142,20 @@ void OverlayPage::forgetTouched()
   touchedModel_.clear();
 }
 
+/// Before anything is touched, a person knows whether the landmarks are this mesh's.
+void OverlayPage::checkLandmarks()
+{
+  std::vector<Eigen::Vector3d> points_Model;
+  for (const LandmarkPanel::Landmark& landmark : ui_->landmarks->landmarks())
+  {
+    points_Model.push_back(landmark.point_Model);
+  }
+  if (!points_Model.empty() && workbench_.modelPath() == touchedModel_)
+  {
+    workbench_.checkLandmarks(points_Model);
+  }
+}
+
 /// What was touched comes back with its session, and is not touched anew by that.
 void OverlayPage::recallLandmarks()
 {
@@ -173,6 +188,7 @@ void OverlayPage::takeModel()
   }
   touchedModel_ = model;
   offerOwnLandmarks();
+  checkLandmarks();
 }
 
 /// With the program's own mesh, also while that is being read: a person can begin to touch.

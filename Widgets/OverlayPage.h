@@ -50,6 +50,7 @@ private:
   void takeTip();
   void forgetTouched();
   void recallLandmarks();
+  void checkLandmarks();
   void takeModel();
   void offerOwnLandmarks();
   void showRegistration();

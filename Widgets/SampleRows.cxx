@@ -7,6 +7,7 @@
 #include <QCoreApplication>
 
 #include <map>
+#include <optional>
 
 namespace handeye
 {
@@ -17,6 +18,21 @@ namespace
 QString words(const char* text)
 {
   return QCoreApplication::translate("handeye::SampleRows", text);
+}
+
+/// How far the tip is from the ray on which the ball is seen, mm; nothing where the camera is not known.
+std::optional<double> errorMm(const ValidatedFrame& frame, const ValidationStepResult& validation)
+{
+  if (!validation.subject.camera)
+  {
+    return std::nullopt;
+  }
+  const CameraModel& camera = *validation.subject.camera;
+  const CameraModel::Unprojection seen = camera.unproject(frame.captured.ball.ball_Image),
+                                  drawn = camera.unproject(frame.validated->projected_Image);
+  return seen.isUsable() && drawn.isUsable()
+    ? std::optional(frame.validated->distanceMm * drawn.ray_Camera.cross(seen.ray_Camera).norm())
+    : std::nullopt;
 }
 
 SampleRow rowOf(const CaptureSample& sample)
@@ -103,6 +119,7 @@ QVector<SampleRow> validationRows(const QMap<int, CaptureSample>& samples, const
       row.level = Level::Good;
       row.residualPx = found->second->validated->errorPx;
       row.distanceMm = found->second->validated->distanceMm;
+      row.residualMm = errorMm(*found->second, *validation);
     }
     rows.push_back(row);
   }

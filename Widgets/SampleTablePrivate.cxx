@@ -114,7 +114,8 @@ void SampleTable::Private::fitColumns()
   for (const int column : { SampleTableModel::Use, SampleTableModel::Id, SampleTableModel::ResidualPx, SampleTableModel::ResidualMm,
          SampleTableModel::DistanceMm })
   {
-    int widest = metrics.horizontalAdvance(QStringLiteral("000"));
+    const bool isResidual = column == SampleTableModel::ResidualPx || column == SampleTableModel::ResidualMm;
+    int widest = metrics.horizontalAdvance(isResidual ? QStringLiteral("00.00") : QStringLiteral("000"));
     for (const QString& line : model->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString().split(QLatin1Char('\n')))
     {
       widest = std::max(widest, metrics.horizontalAdvance(line));

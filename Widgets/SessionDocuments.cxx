@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SessionDocuments.h"
 
-#include "JsonEigen.h"
-
 #include <cmath>
-#include <vector>
+#include <utility>
 
 namespace handeye
 {
@@ -110,27 +108,18 @@ DeviceSetup devicesOf(const json& document, DeviceSetup otherwise)
 
 json exportJson(const ExportDocument& exported)
 {
-  return { { "folder", exported.folder.toStdString() }, { "markerToCamera", toJson(exported.markerToCamera) } };
+  return { { "folder", exported.folder.toStdString() }, { "numbers", exported.numbers } };
 }
 
 std::optional<ExportDocument> exportOf(const json& document)
 {
-  const json rows = document.is_object() ? document.value("markerToCamera", json()) : json();
-  std::vector<double> numbers;
-  for (const json& row : rows.is_array() ? rows : json::array())
+  const json numbers = document.is_object() ? document.value("numbers", json()) : json();
+  ExportDocument exported{ textOf(document, "folder", {}), {} };
+  for (const json& each : numbers.is_array() ? numbers : json::array())
   {
-    for (const json& each : row.is_array() ? row : json::array())
-    {
-      numbers.push_back(each.is_number() ? each.get<double>() : std::nan(""));
-    }
+    exported.numbers.push_back(each.is_number() ? each.get<double>() : std::nan(""));
   }
-  if (numbers.size() != 16)
-  {
-    return std::nullopt;
-  }
-  ExportDocument exported{ textOf(document, "folder", {}), Eigen::Isometry3d::Identity() };
-  exported.markerToCamera.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
-  return exported;
+  return exported.numbers.empty() ? std::nullopt : std::optional(exported);
 }
 
 }  // namespace handeye

@@ -7,12 +7,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include <Eigen/Geometry>
 #include <QString>
 
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace handeye
 {
@@ -42,11 +42,11 @@ BallDocument ballOf(const nlohmann::json& document, BallDocument otherwise);
 nlohmann::json devicesJson(const DeviceSetup& setup);
 DeviceSetup devicesOf(const nlohmann::json& document, DeviceSetup otherwise);
 
-/// "export": where a calibration was exported to. p_Camera = markerToCamera * p_Marker, mm
+/// "export": where to, and all numbers of which what was exported was made (calibration, lens, stylus, registration).
 struct ExportDocument
 {
   QString folder;
-  Eigen::Isometry3d markerToCamera = Eigen::Isometry3d::Identity();
+  std::vector<double> numbers;
 };
 nlohmann::json exportJson(const ExportDocument& exported);
 /// Nothing where there was no export.

@@ -153,6 +153,10 @@ void StylusPage::showProgress()
   ui_->posesLabel->setText(hasPoses ? PivotTask::wordsOf(state.counts) : tr("–"));
   ui_->dome->setHint(hint());
   ui_->introLabel->setText(intro());
+  // Of a stylus that came from a file or a session, directions and poses are not known.
+  const bool isPivotKnown = hasPoses || workbench_.pivot().isCollecting() || !workbench_.stylus();
+  ui_->dome->setVisible(isPivotKnown);
+  ui_->countsBox->setVisible(isPivotKnown);
 }
 
 void StylusPage::refresh()
@@ -179,7 +183,7 @@ void StylusPage::showSpin()
   constexpr double Degrees = 180 / M_PI;
   ui_->spinProgress->setValue(int(100 * state.share()));
   ui_->spinFinishButton->setEnabled(estimate.isUsable());
-  const QString turned = tr("Spun by %1 of %2 deg (RMS), %3 of %4 poses, %5 hidden.")
+  const QString turned = tr("Spun by %1 deg RMS (wanted: %2), %3 poses (wanted: %4), %5 hidden.")
                            .arg(estimate.spin * Degrees, 0, 'f', 0)
                            .arg(SpinTask::EnoughSpin * Degrees, 0, 'f', 0)
                            .arg(estimate.used.size())

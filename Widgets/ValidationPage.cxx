@@ -64,7 +64,10 @@ ValidationPage::ValidationPage(HandEyeWorkbench& workbench, QWidget* parent)
     [this](int id) { ui_->hintLabel->setText(tr("Sample %1 is stored.").arg(sampleNumber(id))); });
   connect(&capture, &CaptureTask::imported, this,
     [this](const QVector<int>& ids, int refused, const QString& reason)
-    { ui_->hintLabel->setText(importedWords(ids.size(), refused, reason)); });
+    {
+      ui_->handsFreeBox->setChecked(false);  // live samples are not mixed into a recording's unasked
+      ui_->hintLabel->setText(importedWords(ids.size(), refused, reason));
+    });
   connect(&capture, &CaptureTask::samplesChanged, this, &ValidationPage::showStartOver);
   connect(ui_->startOverButton, &QPushButton::clicked, this, &ValidationPage::startOver);
   connect(ui_->bringBackButton, &QPushButton::clicked, this, &ValidationPage::bringBack);

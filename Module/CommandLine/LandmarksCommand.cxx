@@ -8,10 +8,9 @@
 #include "LandmarkRegistration.h"
 #include "MeshReader.h"
 #include "ResultFiles.h"
+#include "SurfaceDistance.h"
 #include "TextTables.h"
 
-#include <vtkCellLocator.h>
-#include <vtkNew.h>
 #include <vtkPolyData.h>
 
 #include <algorithm>
@@ -26,8 +25,6 @@ namespace
 {
 
 constexpr double Degrees = 180 / EIGEN_PI;
-/// Landmarks are picked on the model's surface; further away (mm) they were not picked on this model.
-constexpr double LargestSurfaceDistanceMm = 5;
 
 struct LandmarksArguments
 {
@@ -40,20 +37,6 @@ struct LandmarksArguments
   CommandOutput output;
 };
 
-double largestSurfaceDistance(vtkCellLocator* surface, const std::vector<Eigen::Vector3d>& points)
-{
-  double largest = 0;
-  for (const Eigen::Vector3d& point : points)
-  {
-    double closest[3], square = 0;
-    vtkIdType cell = 0;
-    int subCell = 0;
-    surface->FindClosestPoint(point.data(), closest, cell, subCell, square);
-    largest = std::max(largest, std::sqrt(square));
-  }
-  return largest;
-}
-
 /// Whether the model's landmarks lie on its surface; if the touched ones do instead, the lists are exchanged.
 void checkOnSurface(const LandmarksArguments& arguments, const LandmarkLists& lists)
 {
@@ -62,15 +45,12 @@ void checkOnSurface(const LandmarksArguments& arguments, const LandmarkLists& li
     return;
   }
   const vtkSmartPointer<vtkPolyData> mesh = readMesh(arguments.mesh);
-  vtkNew<vtkCellLocator> surface;
-  surface->SetDataSet(mesh);
-  surface->BuildLocator();
-  const double model = largestSurfaceDistance(surface, lists.points_Model);
+  const double model = largestSurfaceDistance(mesh, lists.points_Model);
   if (model <= LargestSurfaceDistanceMm)
   {
     return;
   }
-  const bool areExchanged = largestSurfaceDistance(surface, lists.points_Phantom) <= LargestSurfaceDistanceMm;
+  const bool areExchanged = largestSurfaceDistance(mesh, lists.points_Phantom) <= LargestSurfaceDistanceMm;
   throw io::FileError(arguments.model,
     format("a landmark is %.1f mm off the surface of the model, expected is at most %.0f mm", model, LargestSurfaceDistanceMm) +
       (areExchanged ? "; the touched ones lie on it: the two lists are exchanged"

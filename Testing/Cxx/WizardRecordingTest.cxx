@@ -164,8 +164,9 @@ void WizardRecordingTest::anotherSession_HasNothingOfTheOneBefore()
   const QString before = exportFolder();
   panel.goTo(WizardStep::Overlay);
   QTRY_VERIFY_WITH_TIMEOUT(workbench.model(), PatienceMs);
-  const std::vector<Eigen::Vector3d> points = { { 0, 0, 0 }, { 40, 0, 0 }, { 0, 30, 0 }, { 0, 0, 50 } };
-  workbench.registerLandmarks(points, points);
+  const auto landmarks =
+    handeye::readLandmarkLists(demo("phantom_model_points.txt").toStdString(), demo("phantom_touched_points.txt").toStdString());
+  workbench.registerLandmarks(landmarks.points_Model, landmarks.points_Phantom);
   QTRY_VERIFY_WITH_TIMEOUT(workbench.modelToPhantom(), PatienceMs);
   panel.goTo(WizardStep::Devices);
   QTemporaryDir folder;
