@@ -6,6 +6,7 @@
 #include "SphereCone.h"
 #include "vtkHandEyeOverlayPipeline.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace handeye
@@ -15,7 +16,9 @@ namespace
 {
 
 constexpr int OutlinePoints = 64;
-constexpr int SilenceMs = 1500;
+/// Without a picture for so long a video has stopped; one that has few pictures a second may take longer.
+constexpr int SilenceMs = 1500, LongestSilenceMs = 5000;
+constexpr double SilentIntervals = 2.5;
 
 QPointF toPoint(const Eigen::Vector2d& point_Image)
 {
@@ -67,7 +70,7 @@ VideoPresenter::VideoPresenter(HandEyeWorkbench& workbench, VideoView& view, QOb
     [this]
     {
       view_.setBanner(tr("No new picture arrives: this one is old."), Level::Error);
-      overlay_->leaveOldPicture(SilenceMs);
+      overlay_->leaveOldPicture(silence_.interval());
     });
   connect(&workbench_.devices(), &DeviceHub::connectionChanged, this,
     [this]
@@ -121,6 +124,10 @@ void VideoPresenter::showFrame()
     return;
   }
   catchUp_.stop();
+  if (sinceShown_.isValid())
+  {
+    silence_.setInterval(std::clamp(int(SilentIntervals * double(sinceShown_.elapsed())), SilenceMs, LongestSilenceMs));
+  }
   silence_.start();
   sinceShown_.start();
   QTimer::singleShot(0, this, [this] { costMs_ = sinceShown_.elapsed(); });

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "WizardScreens.h"
 #include "LandmarkFiles.h"
+#include "LandmarkPanel.h"
 #include "VideoView.h"
 #include "WidgetTestSupport.h"
 #include "WizardDriver.h"
@@ -56,7 +57,16 @@ void WizardScreensTest::fill(HandEyeCalibrationPanel& panel)
   QTRY_VERIFY_WITH_TIMEOUT(workbench.validation() && workbench.validation()->projectionErrorPx.count >= 8, PatienceMs);
   const auto landmarks = handeye::readLandmarkLists((demo + QStringLiteral("phantom_model_points.txt")).toStdString(),
     (demo + QStringLiteral("phantom_touched_points.txt")).toStdString());
-  workbench.registerLandmarks(landmarks.points_Model, landmarks.points_Phantom);
+  panel.goTo(WizardStep::Overlay);
+  QTRY_VERIFY_WITH_TIMEOUT(workbench.model() != nullptr, PatienceMs);
+  QVector<handeye::LandmarkPanel::Landmark> touched = panel.findChild<handeye::LandmarkPanel*>()->landmarks();
+  QCOMPARE(std::size_t(touched.size()), landmarks.points_Model.size());
+  for (int i = 0; i < touched.size(); ++i)
+  {
+    touched[i].point_Model = landmarks.points_Model[std::size_t(i)];
+    touched[i].touched_Phantom = landmarks.points_Phantom[std::size_t(i)];
+  }
+  panel.findChild<handeye::LandmarkPanel*>()->setLandmarks(touched);
   QTRY_VERIFY_WITH_TIMEOUT(workbench.modelToPhantom().has_value(), PatienceMs);
 }
 
