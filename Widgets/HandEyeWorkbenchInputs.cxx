@@ -261,8 +261,7 @@ void HandEyeWorkbench::takeFormerBallColor()
 {
   if (const std::optional<FormerColor> former = std::exchange(ball_.former, std::nullopt))
   {
-    setBallColor(
-      former->color, former->isLearnt, tr("the colour of before: %1").arg(nameOf(former->color, former->isLearnt)));
+    setBallColor(former->color, former->isLearnt, tr("the colour of before: %1").arg(nameOf(former->color, former->isLearnt)));
   }
 }
 
