@@ -134,7 +134,10 @@ void DevicesPage::chooseRecording(const QString& path)
   ui_->recordingEdit->setText(path);
   if (workbench_.devices().isConnected())
   {
-    workbench_.refuseRecording(QFileInfo(path).fileName());
+    workbench_.refuse(WizardStep::Devices,
+      tr("%1 can be played once nothing else is connected: press Disconnect, then Connect. "
+         "The pages Stylus, Capture and Validation take a recording at once.")
+        .arg(QFileInfo(path).fileName()));
   }
 }
 

@@ -84,14 +84,6 @@ void DirectionDome::setHint(const QString& text)
   this->update();
 }
 
-void DirectionDome::setErrorText(const QString& text, Level level)
-{
-  error_ = text;
-  errorLevel_ = level;
-  this->updateAccessibility();
-  this->update();
-}
-
 int DirectionDome::filledCount() const
 {
   return int(std::count_if(poses_.begin(), poses_.end(), [this](int poses) { return poses >= target_; }));
@@ -105,7 +97,7 @@ int DirectionDome::cellCount()
 QRectF DirectionDome::domeRectangle() const
 {
   const double line = this->fontMetrics().height();
-  const double below = 3.4 * line + 12;
+  const double below = 2 * line + 10;
   const double side = std::max(40.0, std::min<double>(this->width(), this->height() - below) - 8);
   return { (this->width() - side) / 2, 4, side, side };
 }
@@ -151,7 +143,7 @@ QString DirectionDome::describe(int cell) const
 void DirectionDome::updateAccessibility()
 {
   const QString filled = tr("%1 of %2 directions covered").arg(this->filledCount()).arg(cellCount());
-  QStringList sentences = { filled, hint_, error_ };
+  QStringList sentences = { filled, hint_ };
   sentences.removeAll(QString());
   this->setAccessibleDescription(sentences.join(QStringLiteral(". ")));
 }
@@ -249,28 +241,7 @@ void DirectionDome::paintWords(QPainter& painter, double top) const
   painter.setPen(this->palette().color(QPalette::WindowText));
   const QString counted = tr("%1 of %2 directions").arg(this->filledCount()).arg(cellCount());
   const QString first = hint_.isEmpty() ? counted : counted + QStringLiteral(" – ") + hint_;
-  QRectF used;
-  painter.drawText(QRectF(0, top, this->width(), 2 * line + 2), Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, first, &used);
-  if (error_.isEmpty())
-  {
-    return;
-  }
-  QFont bold = this->font();
-  bold.setBold(true);
-  const QFontMetricsF metrics(bold);
-  const double iconSide = errorLevel_ == Level::Info ? 0 : line;
-  const QString shown = metrics.elidedText(error_, Qt::ElideRight, this->width() - iconSide - 8);
-  const double width = metrics.horizontalAdvance(shown) + iconSide + (iconSide > 0 ? 6 : 0);
-  const double left = (this->width() - width) / 2;
-  const double errorTop = std::min(used.bottom(), top + 2 * line) + 4;
-  if (iconSide > 0)
-  {
-    levelIcon(errorLevel_).paint(&painter, QRectF(left, errorTop, iconSide, iconSide).toRect());
-  }
-  painter.setFont(bold);
-  painter.setPen(levelColor(errorLevel_, this->palette()));
-  painter.drawText(
-    QRectF(left + width - metrics.horizontalAdvance(shown), errorTop, width, line + 2), Qt::AlignLeft | Qt::AlignVCenter, shown);
+  painter.drawText(QRectF(0, top, this->width(), 2 * line + 2), Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, first);
 }
 
 bool DirectionDome::event(QEvent* event)
@@ -286,7 +257,7 @@ bool DirectionDome::event(QEvent* event)
     else
     {
       // The whole sentence, which may not have had room.
-      QToolTip::showText(help->globalPos(), error_, this);
+      QToolTip::showText(help->globalPos(), hint_, this);
     }
     return true;
   }

@@ -35,10 +35,8 @@ public:
   /// Turns the picture counter-clockwise (degrees).
   void setViewAngle(double degrees);
 
-  /// "turn more to the left": larger, above the error.
+  /// "turn more to the left": behind the count.
   void setHint(const QString& text);
-  /// "tip error 0.08 mm": the running error and its verdict.
-  void setErrorText(const QString& text, Level level = Level::Info);
 
   /// Full cells, of how many.
   int filledCount() const;
@@ -68,8 +66,7 @@ private:
   int target_;
   std::optional<QPointF> direction_Dome_;
   double viewAngleDeg_ = 0;
-  QString hint_, error_;
-  Level errorLevel_ = Level::Info;
+  QString hint_;
 };
 
 }  // namespace handeye

@@ -61,7 +61,9 @@ void HandEyeCalibrationPanel::openResult(const QString& path)
   const QString kind = resultKind(path);
   if (kind == QStringLiteral("truth"))
   {
-    workbench().refuseTruth(QFileInfo(path).fileName());
+    workbench().refuse(currentStep(),
+      tr("%1 is what is true in a simulation, to compare results with; it is no result to work with.")
+        .arg(QFileInfo(path).fileName()));
     return;
   }
   const bool isForThisPage = kind.isEmpty();

@@ -236,20 +236,6 @@ bool HandEyeWorkbench::connectDevices(const DeviceSetup& setup)
   return true;
 }
 
-void HandEyeWorkbench::refuseRecording(const QString& name)
-{
-  refuse(WizardStep::Devices,
-    tr("%1 can be played once nothing else is connected: press Disconnect, then Connect. On the pages Stylus, Capture and "
-       "Validation "
-       "a recording is taken at once.")
-      .arg(name));
-}
-
-void HandEyeWorkbench::refuseTruth(const QString& name)
-{
-  refuse(step_, tr("%1 is what is true in a simulation, to compare results with; it is no result to work with.").arg(name));
-}
-
 void HandEyeWorkbench::setStreamNames(const DeviceSetup& setup)
 {
   devices_->setNames(setup);

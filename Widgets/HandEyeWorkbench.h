@@ -128,10 +128,6 @@ public:
   // Devices
   bool connectDevices(const DeviceSetup& setup);
   void setStreamNames(const DeviceSetup& setup);
-  /// Says that a recording cannot be played beside the devices that are connected.
-  void refuseRecording(const QString& name);
-  /// Says that a simulation's truth is nothing to work with, on the page that is open.
-  void refuseTruth(const QString& name);
   /// The page that a person is on: the simulated room follows it, and the ball is looked for where it is needed.
   void enterStep(WizardStep step);
   WizardStep step() const { return step_; }
@@ -215,7 +211,8 @@ public:
   static QString ownModel();
   static QString ownLandmarks();
   /// Whether landmarks can be those of the mesh that is loaded: they lie on its surface. What does not is refused in words.
-  void checkLandmarks(const std::vector<Eigen::Vector3d>& points_Model);
+  /// @param isRegistered the registration was made with them, before there was a mesh: it goes, too
+  void checkLandmarks(const std::vector<Eigen::Vector3d>& points_Model, bool isRegistered);
   /// Refused where checkLandmarks() would; the registration of before stays then.
   /// @param touchedModel the mesh whose landmarks they are; empty: the one that is loaded
   void registerLandmarks(const std::vector<Eigen::Vector3d>& points_Model, const std::vector<Eigen::Vector3d>& points_Phantom,
@@ -267,6 +264,8 @@ public:
   Level levelOf(WizardStep step) const;
 
   void cancelWork();
+  /// Says on a step's page, and in the log, why something is not done.
+  void refuse(WizardStep step, const QString& message);
 
 signals:
   /// Something about a step's inputs or result is different.
@@ -321,7 +320,6 @@ private:
   void calibrateNow();
   void takeCalibration(const CalibrationStepResult& result);
   void revalidate();
-  void refuse(WizardStep step, const QString& message);
   /// Work beside the window; what it throws is a refusal of the step.
   void beside(WizardStep step, std::function<void()> work);
   std::optional<Eigen::Isometry3d> stylusTipTo(const Eigen::Isometry3d& markerToCamera, const devices::PairedFrame& frame) const;

@@ -132,15 +132,25 @@ vtkSmartPointer<vtkPolyData> HandEyeWorkbench::meshBeside() const
   return copy;
 }
 
-void HandEyeWorkbench::checkLandmarks(const std::vector<Eigen::Vector3d>& points_Model)
+void HandEyeWorkbench::checkLandmarks(const std::vector<Eigen::Vector3d>& points_Model, bool isRegistered)
 {
   beside(WizardStep::Overlay,
-    [this, points_Model, mesh = meshBeside(), path = modelPath_]
+    [this, points_Model, isRegistered, mesh = meshBeside(), path = modelPath_]
     {
       const QString problem = problemOfLandmarks(mesh, path, points_Model);
       if (!problem.isEmpty())
       {
-        tell([this, problem] { refuse(WizardStep::Overlay, problem); });
+        tell(
+          [this, problem, isRegistered]
+          {
+            if (isRegistered && registration_)
+            {
+              registration_.reset();
+              store("phantom", nlohmann::json());
+              setModelToPhantom(std::nullopt, {});
+            }
+            refuse(WizardStep::Overlay, problem);
+          });
       }
     });
 }

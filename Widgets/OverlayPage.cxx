@@ -152,7 +152,7 @@ void OverlayPage::checkLandmarks()
   }
   if (!points_Model.empty() && workbench_.modelPath() == touchedModel_)
   {
-    workbench_.checkLandmarks(points_Model);
+    workbench_.checkLandmarks(points_Model, ui_->landmarks->pairs().landmarks.size() >= LandmarkPanel::FewestLandmarks);
   }
 }
 

@@ -129,8 +129,6 @@ private slots:
         dome->setCoverage(collector.coverage());
         dome->setCurrentDirection(QPointF(0.45, 0.3));
         dome->setHint(QStringLiteral("lean it more to the left"));
-        dome->setErrorText(
-          QStringLiteral("The tip is known to %1 mm").arg(collector.predictedTipErrorMm(), 0, 'f', 2), Level::Good);
         return dome;
       });
   }

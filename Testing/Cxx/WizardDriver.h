@@ -27,6 +27,14 @@ inline void printRefusals(HandEyeCalibrationPanel& panel)
     [](handeye::WizardStep step, const QString& message) { qInfo("refused on page %d: %s", int(step) + 1, qPrintable(message)); });
 }
 
+/// Until everything that was to be stored by now is on the disk.
+inline void waitUntilStored(handeye::HandEyeWorkbench& workbench)
+{
+  bool isStored = false;
+  workbench.afterStoring([&isStored] { isStored = true; });
+  QTRY_VERIFY_WITH_TIMEOUT(isStored, PatienceMs);
+}
+
 /// Clicks through a panel's real buttons, as a person does.
 class WizardDriver
 {

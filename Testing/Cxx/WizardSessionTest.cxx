@@ -103,9 +103,7 @@ void WizardSessionTest::validation_StartsOverAndComesBack()
   driver.click(again);
   QTRY_VERIFY_WITH_TIMEOUT(!workbench.validation() && !driver.canGoNext(), PatienceMs);
   QVERIFY(table->rows().isEmpty());
-  bool isStored = false;
-  workbench.afterStoring([&isStored] { isStored = true; });
-  QTRY_VERIFY_WITH_TIMEOUT(isStored, PatienceMs);
+  waitUntilStored(workbench);
   QVERIFY2(!handeye::summarizeSession(workbench.sessionFolder()).isValidated, "what was set aside validates nothing");
   QVERIFY(!again->isVisible() && back->isVisible());
   QVERIFY2(!driver.onPage<QCheckBox>("handsFreeBox")->isChecked(), "the ball that rests there is not taken at once");
@@ -177,9 +175,7 @@ void WizardSessionTest::lastSession_IsOfferedUntilThisOneIsUsed()
     panel.workbench().openSession(folder);
     loadInputs(panel);
     importCapture(panel);
-    bool isStored = false;
-    panel.workbench().afterStoring([&isStored] { isStored = true; });
-    QTRY_VERIFY_WITH_TIMEOUT(isStored, PatienceMs);
+    waitUntilStored(panel.workbench());
   }
   const handeye::SessionSummary summary = handeye::summarizeSession(folder);
   QVERIFY(summary.isCalibrated && summary.hasStylus && !summary.isValidated && summary.sampleCount > 10);
@@ -214,9 +210,7 @@ void WizardSessionTest::devices_OfTheSessionStandThereAgain()
     setup.kind = handeye::DeviceSetup::Kind::Recording;
     setup.recording = demo("calibration");
     QVERIFY(panel.workbench().connectDevices(setup));
-    bool isStored = false;
-    panel.workbench().afterStoring([&isStored] { isStored = true; });
-    QTRY_VERIFY_WITH_TIMEOUT(isStored, PatienceMs);
+    waitUntilStored(panel.workbench());
   }
   HandEyeCalibrationPanel panel(nullptr, nullptr);
   testing_widgets::show(panel, QSize(1280, 800));
@@ -263,9 +257,7 @@ void WizardSessionTest::resultOfAnotherSession_IsNobodys()
   workbench.openSession(parent.filePath(QStringLiteral("another")));
   QSignalSpy opened(&workbench, &HandEyeWorkbench::sessionOpened);
   QVERIFY(opened.wait(PatienceMs));
-  bool isThrough = false;
-  workbench.afterStoring([&isThrough] { isThrough = true; });
-  QTRY_VERIFY_WITH_TIMEOUT(isThrough, PatienceMs);
+  waitUntilStored(workbench);
   QTest::qWait(200);
   QVERIFY(!workbench.stylus() && !workbench.isSessionUsed());
 }
@@ -281,9 +273,7 @@ void WizardSessionTest::landmarksOfNoSuchMesh_AreRefused()
   WizardDriver driver(panel);
   auto* const landmarks = panel.findChild<LandmarkPanel*>();
   QVERIFY(landmarks->loadModelLandmarks(demo("phantom_model_points.txt")));
-  bool isThrough = false;
-  workbench.afterStoring([&isThrough] { isThrough = true; });
-  QTRY_VERIFY_WITH_TIMEOUT(isThrough, PatienceMs);
+  waitUntilStored(workbench);
   QVERIFY2(!driver.message().contains(QStringLiteral("no landmarks")), qPrintable(driver.message()));
   QVector<LandmarkPanel::Landmark> wrong = demoLandmarks();
   for (LandmarkPanel::Landmark& landmark : wrong)
